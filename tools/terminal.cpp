@@ -20,7 +20,7 @@ namespace nearmiss::tools {
 namespace {
 
 // A signal handler may use only lock-free objects.
-std::atomic<bool> stop{false};
+std::atomic<bool> stop_requested{false};
 std::atomic<std::time_t> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
 
@@ -33,7 +33,7 @@ extern "C" void end_on_signal(int /*signal*/) {
 }
 
 extern "C" void on_signal(int signal) {
-  if (!stop.exchange(true)) first_signal = std::time(nullptr);
+  if (!stop_requested.exchange(true)) first_signal = std::time(nullptr);
   end_on_signal(signal);
 }
 
@@ -88,7 +88,7 @@ void end_on_signals() {
 
 void stop_on_signals() { handle_interrupts(on_signal); }
 
-const std::atomic<bool>& interrupted() { return stop; }
+const std::atomic<bool>& interrupted() { return stop_requested; }
 
 Progress::Progress(bool quiet)
     : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0), last_(std::chrono::steady_clock::now()) {}

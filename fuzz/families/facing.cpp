@@ -8,19 +8,19 @@ namespace {
 
 using Vector = Vector3<double>;
 
-constexpr int largest = 4;
+constexpr int largest_coordinate = 4;
 
 /// A vector that points away from the plane z = 0, upward if `level` is positive, otherwise downward.
 Vector vector_away(Random& random, double level) {
   const Vector in_plane = vector_in_plane(random);
-  return in_plane + level * random.integer(1, largest) * Vector::UnitZ();
+  return in_plane + level * random.integer(1, largest_coordinate) * Vector::UnitZ();
 }
 
 }  // namespace
 
 Vector vector_in_plane(Random& random) {
-  const int x = random.integer(-largest, largest);
-  const int y = random.integer(-largest, largest);
+  const int x = random.integer(-largest_coordinate, largest_coordinate);
+  const int y = random.integer(-largest_coordinate, largest_coordinate);
   return {1.0 * x, 1.0 * y, 0};
 }
 
@@ -63,7 +63,7 @@ Contact facing_contact(Random& random, Kind kind, Closest closest, double time, 
   const int others = random.integer(1, most);
   contact.alpha = is_closest(kind, closest, true) ? eighths / 8.0 : 0;
   contact.beta = is_closest(kind, closest, false) ? others / 8.0 : 0;
-  move_to_origin(kind, contact, random.integer_vector(random.one_in(2) ? 0 : largest));
+  move_to_origin(kind, contact, random.integer_vector(random.one_in(2) ? 0 : largest_coordinate));
   return contact;
 }
 

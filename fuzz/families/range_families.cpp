@@ -235,7 +235,7 @@ Query scaled_to(Random& random, const Draft& draft, int x) {
 
 // --- families ---------------------------------------------------------------------------------------
 
-Query planted(Random& random, Kind kind, double x) {
+Query planted_contact(Random& random, Kind kind, double x) {
   const Draft draft = any_contact(random, kind);
   return scaled_to(random, draft, static_cast<int>(x));
 }
@@ -261,11 +261,12 @@ std::vector<Family> range_families() {
   return {
       family("near-overflow", "products of coordinates, or their sums, overflow, or nearly so", false,
              {about, 1016, 1025, true, any}),
-      family("near-overflow-planted", "the same, in exact contact", true, {about, 1016, 1025, true, planted}),
+      family("near-overflow-planted", "the same, in exact contact", true,
+             {about, 1016, 1025, true, planted_contact}),
       family("near-underflow", "products of coordinates become subnormal or zero, or nearly so", false,
              {about, -1090, -1006, true, any}),
       family("near-underflow-planted", "the same, in exact contact", true,
-             {about, -1090, -1006, true, planted}),
+             {about, -1090, -1006, true, planted_contact}),
   };
 }
 

@@ -42,7 +42,7 @@ std::string topic_of(std::string what) {
 }
 
 /// "vt uniform"
-std::string place_of(const ordered_json& changed) {
+std::string described_place(const ordered_json& changed) {
   return fmt::format("{} {}", changed.at("kind").get<std::string>(), changed.at("family").get<std::string>());
 }
 
@@ -66,7 +66,7 @@ ReportedChange changed_way(const char* what, const ordered_json& json) {
 ReportedChange changed_rate(const ordered_json& json) {
   const std::string measure = json.at("what");
   const std::string subject = json.at("subject");
-  const std::string of = fmt::format("{} in {}", measure, place_of(json));
+  const std::string of = fmt::format("{} in {}", measure, described_place(json));
   return {.what = json.at("worse").get<bool>() ? "worse" : "better",
           .subject = subject,
           .topic = topic_of(measure),
@@ -80,8 +80,8 @@ ReportedChange changed_time(const ordered_json& json) {
   return {.what = json.at("slower").get<bool>() ? "slower" : "faster",
           .subject = subject,
           .topic = "time",
-          .key = {"time", subject, place_of(json)},
-          .text = fmt::format("{}, {:.3g} times the expected time", place_of(json), ratio),
+          .key = {"time", subject, described_place(json)},
+          .text = fmt::format("{}, {:.3g} times the expected time", described_place(json), ratio),
           .ratio = ratio};
 }
 

@@ -39,10 +39,10 @@ constexpr std::array measures{
 
 using Versions = std::pair<std::string, std::string>;  // before and after
 using Part = std::pair<QueryClass, Kind>;
-using Parts = std::map<Part, VersionCounts>;
+using VersionParts = std::map<Part, VersionCounts>;
 
-std::map<Versions, Parts> by_class_and_kind(const VersionTable& table) {
-  std::map<Versions, Parts> sums;
+std::map<Versions, VersionParts> by_class_and_kind(const VersionTable& table) {
+  std::map<Versions, VersionParts> sums;
   for (const auto& [key, counts] : table)
     sums[{key.before, key.after}][{class_of(key.family), key.kind}].merge(counts);
   return sums;
@@ -68,7 +68,7 @@ bool was_asked(const std::string& subject, Kind kind, const Statistics& statisti
 
 /// "; ee not compared, because old was not asked about it", for each kind that only one of the two versions
 /// was asked about.
-std::string not_compared(const Versions& versions, const Parts& parts, const Statistics& statistics) {
+std::string not_compared(const Versions& versions, const VersionParts& parts, const Statistics& statistics) {
   std::map<Kind, std::uint64_t> compared;
   for (const auto& [part, counts] : parts) compared[part.second] += counts.queries();
   std::string text;

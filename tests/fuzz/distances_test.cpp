@@ -23,15 +23,15 @@ namespace {
 
 using testing::plugin;
 
-const Query above = at_rest(testing::falling_vertex(0.25, 0.25, 1, -1));  // distance 1, size 1
-const Query crossing = at_rest(testing::falling_edge(0.5, -1));           // distance 0.5, size 2
+const Query vertex_above = at_rest(testing::falling_vertex(0.25, 0.25, 1, -1));  // distance 1, size 1
+const Query crossing = at_rest(testing::falling_edge(0.5, -1));                  // distance 0.5, size 2
 
 DistanceError error(const Query& query, double distance) {
   return error_of(query, DistanceAnswer::given(distance, DistanceAnswer().weights));
 }
 
 TEST(DistanceError, IsTheDifferenceFromTheExactDistance) {
-  const DistanceError over = error(above, 1.25);
+  const DistanceError over = error(vertex_above, 1.25);
   EXPECT_NEAR(over.over, 0.25, 1e-12);
   EXPECT_EQ(over.under, 0);
   EXPECT_NEAR(over.over_by_distance(), 0.25, 1e-12);
@@ -40,7 +40,7 @@ TEST(DistanceError, IsTheDifferenceFromTheExactDistance) {
   EXPECT_EQ(under.over, 0);
   EXPECT_NEAR(under.under_by_distance(), 0.75, 1e-12);
   EXPECT_NEAR(under.under_by_size(), 0.1875, 1e-12);
-  const DistanceError right = error(above, 1);
+  const DistanceError right = error(vertex_above, 1);
   EXPECT_EQ(right.over, 0);
   EXPECT_EQ(right.under, 0);
 }
@@ -57,7 +57,7 @@ TEST(DistanceError, OfTouchingPrimitivesIsRelativeToTheSizeOnly) {
 // The judgement must not depend on the unit of length, so the test scales the same numbers to several units.
 TEST(DistanceError, IsWrongBeyondOnePercentAndATenThousandthOfTheSizeInEveryUnit) {
   for (const double unit : {1.0, 0x1p-900, 0x1p+900}) {
-    const Query query = testing::scaled(above, unit);
+    const Query query = testing::scaled(vertex_above, unit);
     EXPECT_FALSE(error(query, 1.0099 * unit).over_reported) << unit;
     EXPECT_TRUE(error(query, 1.0101 * unit).over_reported) << unit;
     EXPECT_FALSE(error(query, 0.991 * unit).under_reported) << unit;
@@ -85,17 +85,17 @@ TEST(DistanceError, SeesWrongWeights) {
   const auto is_wrong = [](const Query& query, const std::array<double, 4>& weights, double distance) {
     return error_of(query, DistanceAnswer::given(distance, weights)).wrong_weights;
   };
-  EXPECT_FALSE(is_wrong(above, {1, 0.5, 0.25, 0.25}, 1));
-  EXPECT_TRUE(is_wrong(above, {1, 0, 1, 0}, 1)) << "points that are farther apart";
-  EXPECT_TRUE(is_wrong(above, {1, 0.5, 0.25, 0.125}, 1)) << "a sum that is not 1";
-  EXPECT_TRUE(is_wrong(above, {1, 1.5, -0.25, -0.25}, 1)) << "negative weights";
-  EXPECT_TRUE(is_wrong(above, {1, 0.5, 0.25, std::numeric_limits<double>::quiet_NaN()}, 1));
+  EXPECT_FALSE(is_wrong(vertex_above, {1, 0.5, 0.25, 0.25}, 1));
+  EXPECT_TRUE(is_wrong(vertex_above, {1, 0, 1, 0}, 1)) << "points that are farther apart";
+  EXPECT_TRUE(is_wrong(vertex_above, {1, 0.5, 0.25, 0.125}, 1)) << "a sum that is not 1";
+  EXPECT_TRUE(is_wrong(vertex_above, {1, 1.5, -0.25, -0.25}, 1)) << "negative weights";
+  EXPECT_TRUE(is_wrong(vertex_above, {1, 0.5, 0.25, std::numeric_limits<double>::quiet_NaN()}, 1));
   EXPECT_FALSE(is_wrong(crossing, {0.5, 0.5, 0.5, 0.5}, 0.5));
   EXPECT_TRUE(is_wrong(crossing, {0.5, 0.5, 1, 0}, 0.5));
-  EXPECT_FALSE(is_wrong(testing::scaled(above, 0x1p+1023), {1, 0.5, 0.25, 0.25}, 0x1p+1023));
+  EXPECT_FALSE(is_wrong(testing::scaled(vertex_above, 0x1p+1023), {1, 0.5, 0.25, 0.25}, 0x1p+1023));
   // Far from the origin, weights that add up to 1 - 2^-53 must not count as wrong, although they move a
   // point.
-  const Query far = testing::moved(above, 0x1p+40);
+  const Query far = testing::moved(vertex_above, 0x1p+40);
   EXPECT_FALSE(is_wrong(far, {1, 0.5, 0.25, 0.25 - 0x1p-53}, 1));
 }
 
@@ -210,7 +210,7 @@ TEST(DistanceTrial, AFunctionInItsOwnProcessGivesTheSameAnswers) {
   const auto isolated = make_any_subject(with_defect(17));
   for (const Kind kind : kinds) EXPECT_TRUE(isolated->gives_distance(kind));
   EXPECT_FALSE(isolated->decides(Kind::edge_edge));
-  for (const Query& query : {above, crossing, testing::scaled(crossing, 0x1p-12)})
+  for (const Query& query : {vertex_above, crossing, testing::scaled(crossing, 0x1p-12)})
     EXPECT_EQ(isolated->ask_distance(query).distance, inside->ask_distance(query).distance);
 }
 

@@ -30,7 +30,7 @@ using testing::one;
 using What = Finding::What;
 
 /// The vertex meets the triangle at t = 1/2, and passes it.
-const Query hit = falling_vertex(0.25, 0.25, 1, -1);
+const Query contact = falling_vertex(0.25, 0.25, 1, -1);
 /// The vertex falls, and stays at least 2 away from the triangle.
 const Query apart = falling_vertex(0.25, 0.25, 4, 2);
 
@@ -46,16 +46,16 @@ std::string certificate(What what, const Query& query, double time = 0, double b
 }
 
 TEST(FindingCertificate, OfAMissIsThatTheyMeet) {
-  EXPECT_EQ(check(certificate(What::false_negative, hit)), statement_about(hit, "meets", {}, false));
+  EXPECT_EQ(check(certificate(What::false_negative, contact)), statement_about(contact, "meets", {}, false));
   const Query near = with_separation(apart, 2.5);
   EXPECT_EQ(check(certificate(What::false_negative, near)), statement_about(near, "meets", {}, true));
 }
 
 TEST(FindingCertificate, OfALateTimeIsThatTheyMeetBeforeIt) {
-  EXPECT_EQ(check(certificate(What::late, hit, 0.75)),
-            statement_about(hit, "meets", {0, std::nextafter(0.75, 0)}, false));
-  EXPECT_EQ(certificate(What::late, hit, 0.5), "");
-  const Query near = with_separation(hit, 0.5);  // nearer than 0.5 from t = 1/4 on
+  EXPECT_EQ(check(certificate(What::late, contact, 0.75)),
+            statement_about(contact, "meets", {0, std::nextafter(0.75, 0)}, false));
+  EXPECT_EQ(certificate(What::late, contact, 0.5), "");
+  const Query near = with_separation(contact, 0.5);  // nearer than 0.5 from t = 1/4 on
   EXPECT_EQ(check(certificate(What::late, near, 0.375)),
             statement_about(near, "meets", {0, std::nextafter(0.375, 0)}, true));
   EXPECT_EQ(certificate(What::late, near, 0.25), "");

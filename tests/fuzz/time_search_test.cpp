@@ -53,16 +53,16 @@ MadeUpSubject early_in_a_region() {
   });
 }
 
-struct Error {
+struct ErrorOfTime {
   double after;
   bool is_late;
 };
 
-std::optional<Error> error_of(const Subject& subject, const Query& query) {
+std::optional<ErrorOfTime> error_of(const Subject& subject, const Query& query) {
   const Verdict verdict = subject.decide(query);
   auto earliest = earliest_time(query);
   if (!verdict.hit || !earliest) return std::nullopt;
-  return Error{verdict.time - earliest->enclosure().lo, earliest->makes_late(verdict.time)};
+  return ErrorOfTime{verdict.time - earliest->enclosure().lo, earliest->makes_late(verdict.time)};
 }
 
 /// The largest value of sign * (time - t*) among the first queries of a family, where t* is the earliest

@@ -11,8 +11,6 @@ namespace nearmiss::proofs {
 
 namespace {
 
-constexpr Kind vt = Kind::vertex_triangle;
-constexpr Kind ee = Kind::edge_edge;
 using enum Reach;
 
 constexpr std::string_view beps = "B eps";

@@ -16,9 +16,6 @@ namespace nearmiss::proofs {
 
 namespace {
 
-constexpr Kind vt = Kind::vertex_triangle;
-constexpr Kind ee = Kind::edge_edge;
-
 /// The coordinates of four vertices at t = 0 and t = 1.
 struct TracedPoints {
   std::array<Traced, 24> x;

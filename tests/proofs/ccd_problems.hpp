@@ -6,6 +6,9 @@
 
 namespace nearmiss::proofs {
 
+inline constexpr Kind vt = Kind::vertex_triangle;
+inline constexpr Kind ee = Kind::edge_edge;
+
 /// Bounds of the vectors of a pair, in terms of the pair's bound B. For two edges, p joins the end points
 /// that are closest at t = 0. So p is within B at t = 0, but only within 2B at other times. The paper assumes
 /// that all vectors are within B at all times.

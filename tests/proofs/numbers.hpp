@@ -10,6 +10,8 @@
 
 namespace nearmiss::proofs {
 
+inline constexpr double u = 0x1p-53;  ///< the largest relative rounding error of a double
+
 using Rational =
     boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 

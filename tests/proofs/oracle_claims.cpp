@@ -15,8 +15,6 @@ namespace {
 
 using namespace certified;
 
-constexpr double u = 0x1p-53;
-
 // --- the exact errors at given inputs ----------------------------------------------------------------------
 
 /// The relative error, in units of u, of the product of the rounded differences 1 - value of all inputs.

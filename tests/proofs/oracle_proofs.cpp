@@ -14,8 +14,6 @@ using namespace certified;
 
 namespace {
 
-constexpr double u = 0x1p-53;
-
 /// The largest upper end that Gappa proves for the goals of some scripts.
 double largest_end(const std::set<std::string>& scripts) {
   double largest = 0;

@@ -99,9 +99,6 @@ TheoremBounds theorem_bounds(const Problem& problem, Vectors vectors) {
   return {all[static_cast<std::size_t>(left)], all[static_cast<std::size_t>(right)]};
 }
 
-constexpr Kind vt = Kind::vertex_triangle;
-constexpr Kind ee = Kind::edge_edge;
-
 TheoremBounds exact(const Problem& problem) { return theorem_bounds(problem, Vectors::exact); }
 TheoremBound rounded(const Problem& problem) { return theorem_bounds(problem, Vectors::rounded).left; }
 

@@ -16,7 +16,7 @@ namespace {
 
 using testing::falling_vertex;
 
-const Query query = testing::falling_vertex(0.25, 0.25, 1, -1);
+const Query falling_query = testing::falling_vertex(0.25, 0.25, 1, -1);
 
 Outcome false_positive(double ratio, bool refuted = false) {
   return {.verdict = {true, Stage::vv, 0.5}, .collision = false, .ratio = ratio, .bound_refuted = refuted};
@@ -76,19 +76,19 @@ TEST(Histogram, AQuantileIsABin) {
 
 TEST(Counts, AQuantileOfDistancesIsNeverBeyondTheFarthest) {
   Counts counts;
-  counts.add(false_positive(0.5), query, here);
+  counts.add(false_positive(0.5), falling_query, here);
   EXPECT_EQ(counts.ratio_quantile(0.5).to, 0.5);
-  counts.add(false_positive(1000), query, here);
+  counts.add(false_positive(1000), falling_query, here);
   EXPECT_EQ(counts.ratio_quantile(0.99), (Bin{10, 1000}));  // the last bin has no upper border
 }
 
 TEST(Counts, EachOutcomeIsCountedOnce) {
   Counts counts;
-  counts.add({.verdict = {true, Stage::proximity, 0.5}, .collision = true}, query, here);
-  counts.add({.verdict = {false, Stage::none, 0}, .collision = true}, query, here);
-  counts.add({.verdict = Verdict::rejected(Rejection::planes), .collision = false}, query, here);
-  counts.add(false_positive(0.5), query, here);
-  counts.add(false_positive(2, true), query, here);
+  counts.add({.verdict = {true, Stage::proximity, 0.5}, .collision = true}, falling_query, here);
+  counts.add({.verdict = {false, Stage::none, 0}, .collision = true}, falling_query, here);
+  counts.add({.verdict = Verdict::rejected(Rejection::planes), .collision = false}, falling_query, here);
+  counts.add(false_positive(0.5), falling_query, here);
+  counts.add(false_positive(2, true), falling_query, here);
   EXPECT_EQ(counts.queries, 5);
   EXPECT_EQ(counts.collisions, 2);
   EXPECT_EQ(counts.positives, 3);
@@ -104,7 +104,7 @@ TEST(Counts, EachOutcomeIsCountedOnce) {
 
 TEST(Counts, KeepsTheFarthestCases) {
   Counts counts;
-  for (int i = 0; i < 100; ++i) counts.add(false_positive((i * 37 % 100) / 100.0), query, here);
+  for (int i = 0; i < 100; ++i) counts.add(false_positive((i * 37 % 100) / 100.0), falling_query, here);
   ASSERT_EQ(counts.farthest.size(), Counts::far_cases);
   for (std::size_t i = 0; i < Counts::far_cases; ++i)
     EXPECT_EQ(counts.farthest[i].ratio, (99 - static_cast<double>(i)) / 100.0);
@@ -118,7 +118,7 @@ Statistics random_statistics(unsigned seed) {
     Outcome outcome = false_positive(static_cast<double>(random() % 1000) / 500);
     outcome.collision = random() % 2 == 0;
     outcome.verdict.hit = random() % 3 != 0;
-    Query own = query;
+    Query own = falling_query;
     own.x[0] = static_cast<double>(random() % 7);
     statistics.counts[key].add(outcome, own, [&] { return std::to_string(random() % 5); });
     statistics.counts[key].times.add(key.kind, key.family, {1 + random() % 3, random() % 100});
@@ -202,14 +202,14 @@ TEST(Faults, AreNeitherMissesNorAnswers) {
 TEST(Exoticness, OrdersClassesAndDegenerateQueriesWithinTheirs) {
   Query zeros;
   zeros.x[5] = -0.0;
-  EXPECT_EQ(exoticness(query, QueryClass::ordinary), 0);
-  EXPECT_EQ(exoticness(query, QueryClass::degenerate), 1);
+  EXPECT_EQ(exoticness(falling_query, QueryClass::ordinary), 0);
+  EXPECT_EQ(exoticness(falling_query, QueryClass::degenerate), 1);
   EXPECT_EQ(exoticness(falling_vertex(0, 0, 1, 0), QueryClass::degenerate), 2);
   EXPECT_EQ(exoticness(zeros, QueryClass::degenerate), 3);
   EXPECT_EQ(exoticness(testing::moved(zeros, 1), QueryClass::degenerate), 3);
-  EXPECT_EQ(exoticness(query, QueryClass::extreme), 4);
+  EXPECT_EQ(exoticness(falling_query, QueryClass::extreme), 4);
   EXPECT_EQ(exoticness(zeros, QueryClass::extreme), 5);
-  EXPECT_EQ(exoticness(query, QueryClass::unclassified), 6);
+  EXPECT_EQ(exoticness(falling_query, QueryClass::unclassified), 6);
   for (const Kind kind : kinds_of_vertices) {  // their queries repeat a vertex
     const std::array<double, 18> different{0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 2, 1, 3, 4, 5, 9};
     EXPECT_EQ(exoticness(query_of(kind, different.data()), QueryClass::degenerate), 1);
@@ -219,7 +219,7 @@ TEST(Exoticness, OrdersClassesAndDegenerateQueriesWithinTheirs) {
 TEST(Exoticness, PointsCoincideIfTwoVerticesDoAtOneEndOfTheStep) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
-      Query moving = query;
+      Query moving = falling_query;
       moving.set_end(i, moving.start(j));  // coincident at different times, unless vertex j rests
       const int expected = i != j && j > 0 ? 2 : 1;
       EXPECT_EQ(exoticness(moving, QueryClass::degenerate), expected) << i << ' ' << j;

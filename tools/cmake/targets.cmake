@@ -3,8 +3,9 @@ find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
   # ccache caches a file that uses a precompiled header only if ccache may ignore changed #defines, and the
-  # macros __DATE__ and __TIME__.
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
+  # macros __DATE__ and __TIME__. CCACHE_DEPEND: a file that is not in the cache is not preprocessed first.
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
+    ${CCACHE})
 endif()
 
 if(NEARMISS_CLANG_TIDY)
@@ -40,10 +41,16 @@ if("tests" IN_LIST NEARMISS_COMPONENTS)
   set(nearmiss_werror -Werror)
 endif()
 
+# In a unity build (several files compiled as one), a name may hide an internal name of another file.
+set(nearmiss_shadow -Wshadow)
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  set(nearmiss_shadow -Wshadow=local)
+endif()
+
 # nearmiss_options(TARGET): turns on warnings, and makes includes relative to the top folder:
 # "folder/file.hpp".
 function(nearmiss_options target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion ${nearmiss_werror} ${nearmiss_joined_bools})
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic ${nearmiss_shadow} -Wconversion ${nearmiss_werror} ${nearmiss_joined_bools})
   target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()
 

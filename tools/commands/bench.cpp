@@ -33,7 +33,7 @@ namespace {
 
 using Queries = std::map<Kind, std::vector<Query>>;
 
-struct Options {
+struct BenchOptions {
   std::vector<std::filesystem::path> paths;
   std::vector<std::string> subjects{"basic", "wang"};
   PluginLimitOptions limits;
@@ -125,7 +125,7 @@ std::vector<Measured> together(const std::vector<std::vector<Measured>>& by_kind
   return sum;
 }
 
-std::vector<Family> families_of(const Options& options) {
+std::vector<Family> families_of(const BenchOptions& options) {
   std::vector<Kind> kinds;
   for (const std::string& each : options.kinds) kinds.push_back(parse_kind(each, "--kind"));
   std::vector<Family> families;
@@ -139,7 +139,7 @@ std::vector<Family> families_of(const Options& options) {
 
 /// Throws Error if memory is too small for the random queries of any one family, the answers, and what
 /// nearmiss shares with each plug-in.
-void expect_room(const Options& options, const std::vector<Family>& families, const Subjects& subjects,
+void expect_room(const BenchOptions& options, const std::vector<Family>& families, const Subjects& subjects,
                  const isolation::PluginLimits& limits) {
   std::uint64_t bytes = options.queries * sizeof(Verdict);
   for (const auto& subject : subjects)
@@ -153,7 +153,7 @@ void expect_room(const Options& options, const std::vector<Family>& families, co
 
 /// If queries have a separation, throws Error for their kinds as expect_separations() does.
 void expect_separations_of(const std::vector<Input>& inputs, const std::vector<Family>& families,
-                           const Options& options, const Subjects& subjects) {
+                           const BenchOptions& options, const Subjects& subjects) {
   std::set<Kind> separated;
   for (const Input& input : inputs)
     for (const auto& [kind, queries] : input.queries)
@@ -221,7 +221,7 @@ void add_rows(Results& results, const Subjects& subjects, const Input& input, Ki
 
 /// Times the subjects on one input: on each of its kinds, and on all kinds together. Prints the times to
 /// `out`, and adds them to `results`.
-void time_input(const Subjects& subjects, const Input& input, const Options& options, const Stop& stop,
+void time_input(const Subjects& subjects, const Input& input, const BenchOptions& options, const Stop& stop,
                 std::FILE* out, Results& results) {
   std::vector<std::vector<Measured>> by_kind;
   std::vector<double> weights;
@@ -236,7 +236,7 @@ void time_input(const Subjects& subjects, const Input& input, const Options& opt
   if (by_kind.size() > 1) print_rows(out, subjects, input, "both", count, together(by_kind, weights));
 }
 
-int compare(const Options& options) {
+int compare(const BenchOptions& options) {
   fmt::print("{}", comparison_table(read_history(options.compared[0]), read_history(options.compared[1])));
   fmt::print(
       "\nns/query. ratio: median of after / before over the pairs of runs, with its 95 % confidence "
@@ -244,7 +244,7 @@ int compare(const Options& options) {
   return exit_fine;
 }
 
-int run(const Options& options) {
+int run(const BenchOptions& options) {
   if (!options.compared.empty()) return compare(options);
   if (!options.history.empty() && std::filesystem::exists(options.history)) read_history(options.history);
   const Stop stop(interrupted());
@@ -294,7 +294,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_bench(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<BenchOptions>();
   auto* command = app.add_subcommand("bench", "Time subjects side by side, after the box test");
   command->add_option("PATH", options->paths,
                       "Files and folders of cases to time in addition to the random inputs");

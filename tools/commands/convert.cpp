@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ConvertOptions {
   std::vector<fs::path> paths;
   fs::path folder;
   std::string format = "plain";
@@ -77,7 +77,7 @@ std::pair<fs::path, std::string> converted(const std::string& format, const Case
   return {fmt::format("queries/{}.csv", names->ending), to_sample_csv(query, std::nullopt)};
 }
 
-int run(const Options& options) {
+int run(const ConvertOptions& options) {
   NewFiles files(options.folder);
   std::uint64_t count = 0, wrong = 0;
   std::map<fs::path, std::vector<bool>> truths;  // for "json": the truths of the queries in each file
@@ -113,7 +113,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_convert(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ConvertOptions>();
   auto* command = app.add_subcommand("convert", "Write cases in another format, with their exact truths");
   command
       ->add_option("PATH", options->paths,

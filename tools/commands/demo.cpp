@@ -30,7 +30,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-struct Options {
+struct DemoOptions {
   std::filesystem::path out = "nearmiss-demo.case";
 };
 
@@ -119,7 +119,7 @@ void show_exotic_miss(const Query& ordinary) {
   fmt::print("{}\n", vertex_lines(finding.shrunk));
 }
 
-void run(const Options& options) {
+void run(const DemoOptions& options) {
   if (options.out.extension() != ".case")
     throw Error(
         fmt::format("--output: found '{}', expected a name that ends in .case", options.out.string()));
@@ -139,7 +139,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_demo(CLI::App& app, int& /*exit_code*/) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DemoOptions>();
   auto* command =
       app.add_subcommand("demo", "Show what this tool does: a collision that a CCD misses, shrunk and drawn");
   command->add_option("-o,--output", options->out, "Write the miss to this file")

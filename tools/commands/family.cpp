@@ -22,7 +22,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-struct Options {
+struct FamilyOptions {
   std::string name, kind;
   std::uint64_t seed = 1;
   std::uint64_t first = 0;
@@ -35,7 +35,7 @@ struct Options {
 /// Prints a line for each of `count` queries of one kind, starting with the index `first`. A line has the
 /// query or, with --factors, the values of the properties that the family varies. With --class, leaves out
 /// queries of other classes.
-void print_queries(const Options& options, const Family& family) {
+void print_queries(const FamilyOptions& options, const Family& family) {
   const Kind kind = parse_kind(options.kind, "--kind");
   expect_kind(family, kind, "--kind");
   std::uint64_t printed = 0;
@@ -52,7 +52,7 @@ void print_queries(const Options& options, const Family& family) {
 
 /// For each kind, prints how many queries are ordinary, how many each rule excludes from the ordinary ones,
 /// and how many in each group are collisions.
-void print_classes(const Options& options, const Family& family) {
+void print_classes(const FamilyOptions& options, const Family& family) {
   struct Count {
     std::uint64_t queries = 0, collisions = 0;
   };
@@ -85,7 +85,7 @@ void print_combinations(std::string_view name, const crossed::Combinations& comb
   for (const std::string& missing : combinations.missing) fmt::print("never: {}\n", missing);
 }
 
-void print_coverage(const Options& options) {
+void print_coverage(const FamilyOptions& options) {
   const crossed::Coverage found = crossed::coverage(options.seed, options.first, options.count);
   for (const std::string& pair : found.pairs_not_made) fmt::print("not made: {}\n", pair);
   print_combinations("pairs", found.pairs, options.count);
@@ -94,7 +94,7 @@ void print_coverage(const Options& options) {
 
 /// Asks a subject about the queries, and prints for each kind which properties the missed collisions have in
 /// common. Leaves out queries without an answer.
-void print_common_factors(const Options& options, const Family& family) {
+void print_common_factors(const FamilyOptions& options, const Family& family) {
   const auto asked =
       keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), false);
   const Subject& subject = *asked.front();
@@ -117,7 +117,7 @@ void print_common_factors(const Options& options, const Family& family) {
   }
 }
 
-void run(const Options& options) {
+void run(const FamilyOptions& options) {
   const Family family = find_any_family(options.name);
   const bool is_plain = !options.factors && !options.coverage && options.subject.empty();
   if (options.classes) return print_classes(options, family);
@@ -138,7 +138,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_family(CLI::App& app, int& /*exit_code*/) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FamilyOptions>();
   auto* command = app.add_subcommand(
       "family",
       "Print queries of a family, one a line, in the format that nearmiss oracle and nearmiss verdict read");

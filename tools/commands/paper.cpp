@@ -132,7 +132,7 @@ using paper::Claim;
 using paper::Measured;
 using paper::Results;
 
-struct Options {
+struct PaperOptions {
   std::vector<std::string> names;
   bool list = false, quiet = false;
   JsonOutput json;
@@ -231,7 +231,7 @@ ordered_json json_of(const Claim& claim, const Measured& measured) {
           {"commands", commands_of(claim)}};
 }
 
-int run(const Options& options) {
+int run(const PaperOptions& options) {
   const auto which = chosen(options.names);
   options.json.expect_writable();
   const Stop stop(interrupted());
@@ -263,7 +263,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_paper(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PaperOptions>();
   auto* command = app.add_subcommand(
       "paper", "Measure each quantitative claim of the paper: what it says, what we find, does it hold");
   command->add_option("CLAIM", options->names, "Names of claims; all of them if there is none");

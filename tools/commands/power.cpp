@@ -38,7 +38,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-struct Options {
+struct PowerOptions {
   std::vector<std::string> subjects;
   std::vector<std::string> ways;
   std::string time = "60s", libfuzzer;
@@ -52,7 +52,7 @@ constexpr std::string_view all_families = "families";
 constexpr std::string_view search = "search";
 constexpr std::string_view coverage_guided = "libfuzzer";
 
-Hunt hunt(const Options& options, const std::string& subject, const std::string& way) {
+Hunt hunt(const PowerOptions& options, const std::string& subject, const std::string& way) {
   Stop stop(interrupted());
   Subjects subjects;
   subjects.push_back(std::move(keep_contract(make_any_subject(subject), false).front()));
@@ -144,7 +144,7 @@ bool take(std::string_view& text, Number& number, std::string_view then) {
 
 /// Hunts with one libFuzzer target. Runs the command of --libfuzzer with the target, and looks in the
 /// command's output for a line "found after S s, N executions: PATH" or "nothing in ...".
-Hunt hunt_with_target(const Options& options, const std::string& subject,
+Hunt hunt_with_target(const PowerOptions& options, const std::string& subject,
                       const libfuzzer::PromiseTarget& target, int seconds) {
   const std::string command = fmt::format("{} --first {} {}s {}", options.libfuzzer, target.name, seconds,
                                           printable_argument(subject));
@@ -172,7 +172,7 @@ Hunt hunt_with_target(const Options& options, const std::string& subject,
 
 /// Hunts with each libFuzzer target of the subject for an equal share of the time. Returns the hunt that
 /// found a failure soonest.
-Hunt hunt_with_libfuzzer(const Options& options, const std::string& subject) {
+Hunt hunt_with_libfuzzer(const PowerOptions& options, const std::string& subject) {
   const auto targets = libfuzzer::targets_for(*make_any_subject(subject));
   const double share = parse_duration(options.time, "--time").count() / static_cast<double>(targets.size());
   const int seconds = std::max(1, static_cast<int>(share));
@@ -221,7 +221,7 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
          "libFuzzer, time and cases are those of the target that found a failure soonest.\n";
 }
 
-int run(const Options& options) {
+int run(const PowerOptions& options) {
   (void)parse_duration(options.time, "--time");  // refuses a bad time before any work
   std::vector<Hunt> results;
   const std::filesystem::path stored = options.json.file();
@@ -267,7 +267,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_power(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PowerOptions>();
   auto* command = app.add_subcommand("power", "Measure how soon each way to hunt finds each known defect");
   command->add_option("--subject", options->subjects, "Defects, separated by commas; all by default")
       ->delimiter(',')

@@ -19,7 +19,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-struct Options {
+struct QuestionsOptions {
   std::vector<std::string> subjects, families{"all"}, kinds;
   std::string time, file;
   std::uint64_t cases = 0, seed = 1;
@@ -58,7 +58,7 @@ constexpr Command step{
     "a filtered step is not safe",
     false};
 
-std::set<Kind> kinds_of(const Options& options) {
+std::set<Kind> kinds_of(const QuestionsOptions& options) {
   std::set<Kind> found;
   for (const std::string& each : options.kinds) found.insert(parse_kind(each, "--kind"));
   if (found.empty()) found.insert(kinds.begin(), kinds.end());
@@ -67,7 +67,7 @@ std::set<Kind> kinds_of(const Options& options) {
 
 /// Asks all subjects about the queries of a file, and prints a line for each query and subject.
 template <class Question>
-int ask_file(const Options& options, const Subjects& subjects) {
+int ask_file(const QuestionsOptions& options, const Subjects& subjects) {
   if (options.kinds.size() != 1) throw Error("--kind: expected the one kind of the queries in the file");
   bool has_failed = false;
   bool was_asked = false;
@@ -91,7 +91,7 @@ int ask_file(const Options& options, const Subjects& subjects) {
 }
 
 template <class Question>
-int run(const Options& options, const Command& of) {
+int run(const QuestionsOptions& options, const Command& of) {
   const Stop at_signals(interrupted());
   isolation::PluginLimits limits = options.limits.limits();
   limits.stop = &at_signals;  // a signal ends the wait for an answer; the time limit of the command does not
@@ -141,7 +141,7 @@ int run(const Options& options, const Command& of) {
 
 template <class Question>
 void add(CLI::App& app, int& exit_code, const Command& of) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<QuestionsOptions>();
   auto* command = app.add_subcommand(of.name, of.help);
   add_subject_option(*command, options->subjects);
   command->get_option("--subject")->required()->allow_extra_args(false);  // the next argument may be FILE

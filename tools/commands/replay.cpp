@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ReplayOptions {
   std::vector<fs::path> paths;
   TrialOptions trial;
   std::string bound;
@@ -67,7 +67,7 @@ struct Pass {
 
 /// The passes that judge recorded answers, and ask no subject. Different answers to the same query are in
 /// different passes.
-std::vector<Pass> passes_as_answered(const Options& options, std::set<Kind>& seen) {
+std::vector<Pass> passes_as_answered(const ReplayOptions& options, std::set<Kind>& seen) {
   std::vector<RecordedAnswer> answers;
   for (const fs::path& path : options.paths) {
     const std::size_t before = answers.size();
@@ -91,7 +91,7 @@ std::vector<Pass> passes_as_answered(const Options& options, std::set<Kind>& see
 }
 
 /// The pass that asks the subjects about the cases in files and folders.
-Pass pass_of_cases(const Options& options, std::set<Kind>& seen, const Stop& stop) {
+Pass pass_of_cases(const ReplayOptions& options, std::set<Kind>& seen, const Stop& stop) {
   Pass pass;
   pass.subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
   for (const fs::path& path : options.paths)  // checks all files before the command writes any
@@ -109,8 +109,8 @@ struct Replayed {
 };
 
 /// Lets the subjects of a pass decide the pass's cases, and adds the results to `record`.
-void hold(const Options& options, const Pass& pass, const Stop& stop, Record& record, Progress& progress,
-          Replayed& replayed) {
+void hold(const ReplayOptions& options, const Pass& pass, const Stop& stop, Record& record,
+          Progress& progress, Replayed& replayed) {
   const bool shrinks = !options.trial.no_shrink && !options.as_answered;
   Trials trials(pass.subjects, options.trial.comparison, options.trial.jobs, stop, shrinks,
                 [&](TrialResult&& result) { record.add(std::move(result)); });
@@ -150,7 +150,7 @@ void print_unasked(const Subjects& subjects, const Replayed& replayed, std::FILE
   }
 }
 
-OneCase one_case(const Options& options, const Query& query) {
+OneCase one_case(const ReplayOptions& options, const Query& query) {
   OneCase one{query, {}, {}};
   if (options.paths.size() == 1 && fs::is_regular_file(options.paths.front()))
     one.file = options.paths.front().string();
@@ -161,7 +161,7 @@ OneCase one_case(const Options& options, const Query& query) {
 }
 
 /// The facts on which the results depend, and the command that repeats the run.
-RunInfo run_info(const Options& options, const Subjects& subjects) {
+RunInfo info_of(const ReplayOptions& options, const Subjects& subjects) {
   std::string command = "replay";
   for (const fs::path& path : options.paths) command += " " + printable_argument(path.string());
   RunInfo info = options.trial.run_info(command, subjects);
@@ -175,7 +175,7 @@ RunInfo run_info(const Options& options, const Subjects& subjects) {
   return info;
 }
 
-int run(const Options& options) {
+int run(const ReplayOptions& options) {
   const Stop stop(interrupted());
   std::set<Kind> seen;
   std::vector<Pass> passes;
@@ -186,7 +186,7 @@ int run(const Options& options) {
   const Subjects& subjects = passes.front().subjects;
   if (options.separation.apply({}).separation > 0)
     expect_separations(subjects, std::vector(seen.begin(), seen.end()));
-  Record record(options.record, run_info(options, subjects), {.environment = plugin_environment(subjects)});
+  Record record(options.record, info_of(options, subjects), {.environment = plugin_environment(subjects)});
   Replayed replayed;
   {
     Progress progress(options.record.quiet);
@@ -206,7 +206,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_replay(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayOptions>();
   auto* command =
       app.add_subcommand("replay", "Let subjects and the oracle decide the cases in files and folders");
   command

@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct SceneOptions {
   std::vector<std::string> scene;
   TrialOptions trial{.subjects = {"basic", "wang"}};
   std::vector<std::string> bounds{"pair"};
@@ -48,7 +48,7 @@ struct Options {
 const std::map<std::string, LeaveOut> leave_outs{
     {"nothing", LeaveOut::nothing}, {"boxes", LeaveOut::boxes}, {"all", LeaveOut::all}};
 
-void list_scenes(std::FILE* out) {
+void list_built_in_scenes(std::FILE* out) {
   fmt::print(out, "{:<10}{:>7}{:>10}{:>9}  shows\n", "scene", "default", "smallest", "largest");
   for (const BuiltInScene& scene : built_in_scenes())
     fmt::print(out, "{:<10}{:>7}{:>10}{:>9}  {}\n", scene.name, scene.default_size, scene.smallest,
@@ -85,7 +85,7 @@ class Export {
 };
 
 /// The options on which the results of a run depend, and the command that repeats the run.
-RunInfo run_info(const Options& options, const SceneSubjects& all) {
+RunInfo info_of(const SceneOptions& options, const SceneSubjects& all) {
   std::string command = "scene";
   for (const std::string& each : options.scene) command += " " + printable_argument(each);
   RunInfo info = options.trial.run_info(command, all.subjects);
@@ -95,7 +95,7 @@ RunInfo run_info(const Options& options, const SceneSubjects& all) {
   if (options.separation.is_given()) note_option(info, "separation", "--separation", options.separation.text);
   if (all.bound) info["scene's bound"] = fmt::format("{}", *all.bound);
   if (!options.thickness.empty()) note_option(info, "thickness", "--thickness", options.thickness);
-  if (options.around != Options().around)
+  if (options.around != SceneOptions().around)
     note_option(info, "around", "--around", std::to_string(options.around));
   if (options.weld) {
     info["welded"] = "yes";
@@ -121,7 +121,7 @@ std::string describe(const Scene& scene, const MovingMesh& mesh) {
 
 /// Asks the subjects about all steps of a scene. With --verify-plan, also asks about the pairs for which the
 /// plan needs no CCD.
-Held hold_trials(const Options& options, const Scene& scene, const Subjects& subjects, Record& record,
+Held hold_trials(const SceneOptions& options, const Scene& scene, const Subjects& subjects, Record& record,
                  const Stop& stop) {
   const LeaveOut leave_out = leave_outs.at(options.leave_out);
   Export exported(options.export_to);
@@ -185,7 +185,7 @@ std::string what_few_collisions_show(const Statistics& statistics) {
 
 /// The family of queries around the scene's pairs; nothing if the scene has no pairs. Throws Stopped if the
 /// pairs are too many to collect them in a few seconds.
-std::optional<Family> family_around(const Options& options, const Scene& scene) {
+std::optional<Family> family_around(const SceneOptions& options, const Scene& scene) {
   constexpr std::chrono::seconds patience(5);
   Stop until(interrupted());
   until.limit(patience);
@@ -198,7 +198,7 @@ std::optional<Family> family_around(const Options& options, const Scene& scene) 
 }
 
 /// Asks queries of the family around the scene, and returns a line about them.
-std::string hunt_around(const Options& options, const Family& family, const Subjects& subjects,
+std::string hunt_around(const SceneOptions& options, const Family& family, const Subjects& subjects,
                         Record& record, const Stop& stop) {
   CampaignPlan plan;
   plan.families = {family};
@@ -233,7 +233,7 @@ std::string hunt_around(const Options& options, const Family& family, const Subj
   return line + "\n";
 }
 
-std::string longer_hunt(const Options& options) {
+std::string longer_hunt(const SceneOptions& options) {
   std::string scene;
   for (const std::string& each : options.scene) scene += " " + printable_argument(each);
   const std::string within =
@@ -242,7 +242,7 @@ std::string longer_hunt(const Options& options) {
                      shell_quoted(fmt::format("{}", fmt::join(options.trial.subjects, ","))), scene, within);
 }
 
-int run(Options options) {
+int run(SceneOptions options) {
   const double h = options.separation.apply({}).separation;
   if (options.plan_only) options.trial.subjects = {h > 0 ? "exact" : "wang"};
   options.record.summary = !options.plan_only;
@@ -253,7 +253,7 @@ int run(Options options) {
   if (h > 0) scene = with_separation(std::move(scene), h);
   SceneSubjects all = scene_subjects(options.trial, options.bounds, scene, stop);
   if (h > 0) expect_separations(all.subjects);
-  const RunInfo info = run_info(options, all);
+  const RunInfo info = info_of(options, all);
   const RunInfo plugins = plugin_environment(all.subjects);
   std::FILE* const text = options.record.json.text();
   if (!options.thickness.empty())
@@ -272,7 +272,7 @@ int run(Options options) {
   std::string longer;
   if (!few.empty() && !stop.is_requested()) {
     const bool is_own_bound =
-        options.bounds == Options().bounds;  // any other bound may be too small around the pairs
+        options.bounds == SceneOptions().bounds;  // any other bound may be too small around the pairs
     try {
       const auto family = family_around(options, scene);
       if (family) longer = longer_hunt(options);
@@ -295,7 +295,7 @@ int run(Options options) {
   return held.verification.fine() ? code : exit_found;
 }
 
-void add_scene_options(CLI::App& command, Options& options) {
+void add_scene_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option(
           "SCENE", options.scene,
@@ -312,7 +312,7 @@ void add_scene_options(CLI::App& command, Options& options) {
       "scene's pairs (the family mesh of nearmiss fuzz --mesh), unless --bound is given; 0 asks none");
 }
 
-void add_bound_options(CLI::App& command, Options& options) {
+void add_bound_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--bound", options.bounds,
                   "The bound B: each pair's own, the largest of the scene's pairs, or a number; several, "
@@ -329,7 +329,7 @@ void add_bound_options(CLI::App& command, Options& options) {
       ->type_name("H");
 }
 
-void add_plan_options(CLI::App& command, Options& options) {
+void add_plan_options(CLI::App& command, SceneOptions& options) {
   command
       .add_option("--leave-out", options.leave_out,
                   "Pairs that subjects are not asked about: none; those whose swept boxes do not meet; or "
@@ -351,7 +351,7 @@ void add_plan_options(CLI::App& command, Options& options) {
 }
 
 /// With --thickness, the candidates are all built-in subjects, unless the user names some.
-void name_subjects(const CLI::App& command, Options& options) {
+void name_subjects(const CLI::App& command, SceneOptions& options) {
   if (options.thickness.empty() || command.count("--subject") > 0) return;
   options.trial.subjects.clear();
   for (const SubjectInfo& info : built_in_subjects()) options.trial.subjects.emplace_back(info.name);
@@ -360,7 +360,7 @@ void name_subjects(const CLI::App& command, Options& options) {
 }  // namespace
 
 void add_scene(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SceneOptions>();
   auto* command =
       app.add_subcommand("scene", "Decide the pairs of a moving mesh, except those that need no subject");
   add_scene_options(*command, *options);
@@ -370,7 +370,7 @@ void add_scene(CLI::App& app, int& exit_code) {
   add_plan_options(*command, *options);
   options->record.add_to(*command);
   command->callback([options, command, &exit_code] {
-    if (options->list) return list_scenes(options->record.json.text());
+    if (options->list) return list_built_in_scenes(options->record.json.text());
     if (options->scene.empty()) throw CLI::RequiredError("SCENE");
     name_subjects(*command, *options);
     exit_code = run(*options);

@@ -22,7 +22,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-struct Options {
+struct ShrinkOptions {
   std::filesystem::path in, out;
   std::string subject = "wang", form = "case";
   PluginLimitOptions limits;
@@ -30,7 +30,7 @@ struct Options {
 };
 
 /// The only case in the file, with the value of --separation if that option is given.
-Case read_one(const Options& options) {
+Case read_one(const ShrinkOptions& options) {
   std::vector<Case> cases;
   read_cases(options.in, [&](Case&& each) { cases.push_back(std::move(each)); });
   if (cases.size() != 1)
@@ -59,7 +59,7 @@ Finding find_failure(const Case& each, const Subject& subject) {
 
 /// The subject, wrapped so that it is asked only queries that keep its contract if `query` keeps the
 /// contract, and only queries that break it otherwise.
-std::unique_ptr<Subject> made_for(const Query& query, const Options& options) {
+std::unique_ptr<Subject> made_for(const Query& query, const ShrinkOptions& options) {
   auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
   const Subject& subject = *sides.front();
   expect_kind(subject, query.kind);
@@ -78,7 +78,7 @@ Case shrunk_case(const Finding& finding, const std::string& became) {
 }
 
 /// Writes a text to the file of --out, all of it or nothing; without --out, to stdout.
-void write(const std::string& text, const Options& options, const std::string& became) {
+void write(const std::string& text, const ShrinkOptions& options, const std::string& became) {
   if (options.out.empty()) {
     fmt::print("{}", text);
   } else {
@@ -87,7 +87,7 @@ void write(const std::string& text, const Options& options, const std::string& b
   }
 }
 
-void run(const Options& options) {
+void run(const ShrinkOptions& options) {
   const Form form = parse_form(options.form, "--as");
   const Case each = read_one(options);
   const auto subject = made_for(each.query, options);
@@ -105,7 +105,7 @@ void run(const Options& options) {
 }  // namespace
 
 void add_shrink(CLI::App& app, int& /*exit_code*/) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ShrinkOptions>();
   auto* command =
       app.add_subcommand("shrink", "Turn a failing query into the simplest one that fails in the same way");
   command->add_option("CASE", options->in, "A *.case file, or a *.vt, *.ee, *.vv or *.ve file of one query")

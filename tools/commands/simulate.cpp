@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_steps = 10'000;
 
-struct Options {
+struct SimulateOptions {
   SimulationOptions simulation;
   TrialOptions trial{.subjects = {"basic", "wang", "exact"}};
   std::size_t steps = 0;
@@ -34,13 +34,13 @@ struct Options {
   RecordOptions record;
 };
 
-void list_scenes(std::FILE* out) {
+void list_simulated_scenes(std::FILE* out) {
   fmt::print(out, "{:<10}{:>7}  shows\n", "scene", "default");
   for (const BuiltInScene& scene : simulated_scenes())
     fmt::print(out, "{:<10}{:>7}  {}\n", scene.name, scene.default_size, scene.description);
 }
 
-RunInfo run_info(const Options& options, const Subjects& subjects) {
+RunInfo info_of(const SimulateOptions& options, const Subjects& subjects) {
   const SimulationOptions& of = options.simulation;
   RunInfo info = options.trial.run_info("simulate " + of.scene, subjects);
   note_option(info, "stiffness", "--stiffness", of.stiffness);
@@ -104,7 +104,7 @@ ScenePicture last_picture(const Simulation& simulation, const std::string& famil
 }
 
 /// Simulates the scene with one subject as its CCD, to the last step or until `stop` is due.
-void simulate(const Options& options, Simulation simulation, const Subjects& subject, Record& record,
+void simulate(const SimulateOptions& options, Simulation simulation, const Subjects& subject, Record& record,
               const Stop& stop, const std::function<void(std::size_t step, std::size_t steps)>& progress) {
   using Clock = std::chrono::steady_clock;
   const std::string name = subject.front()->name();
@@ -141,7 +141,7 @@ void simulate(const Options& options, Simulation simulation, const Subjects& sub
   trials.finish();
 }
 
-int run(const Options& options) {
+int run(const SimulateOptions& options) {
   if (!options.trial.comparison.versions.empty())
     throw Error("--versions: found simulations, in which each subject is asked other queries");
   if (std::error_code error; !options.frames.empty() && fs::exists(options.frames, error))
@@ -150,7 +150,7 @@ int run(const Options& options) {
   const Stop stop(interrupted());
   Subjects subjects = options.trial.make_subjects(stop);
   if (!options.frames.empty()) expect_folders(subjects);
-  Record record(options.record, run_info(options, subjects), {.environment = plugin_environment(subjects)});
+  Record record(options.record, info_of(options, subjects), {.environment = plugin_environment(subjects)});
   std::FILE* const text = options.record.json.text();
   const MovingMesh& mesh = simulation.motion();
   fmt::print(text, "{}: {}, {}, {}, steps of {}, edges of {} m, springs of {} N/m\n",
@@ -176,7 +176,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   auto* command = app.add_subcommand("simulate", "Simulate cloth or hair with each subject as its CCD");
   command->add_option(
       "SCENE", options->simulation.scene,
@@ -206,7 +206,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->type_name("FOLDER");
   options->record.add_to(*command);
   command->callback([options, &exit_code] {
-    if (options->list) return list_scenes(options->record.json.text());
+    if (options->list) return list_simulated_scenes(options->record.json.text());
     if (options->simulation.scene.empty()) throw CLI::RequiredError("SCENE");
     exit_code = run(*options);
   });

@@ -21,7 +21,7 @@ namespace nearmiss::tools {
 
 namespace {
 
-struct Options {
+struct TightnessOptions {
   std::vector<std::string> names{"all"}, values;
   bool among_vertices = false;
   std::string time;
@@ -30,7 +30,7 @@ struct Options {
 
 constexpr const char* usual_time = "60s";
 
-int measure_tolerances(const Options& options) {
+int measure_tolerances(const TightnessOptions& options) {
   const auto& stop = interrupted();
   const CampaignOptions& campaign = options.campaign;
   const std::string time = options.time.empty() ? usual_time : options.time;
@@ -101,7 +101,7 @@ std::vector<std::string> with_values(const std::vector<std::string>& subjects,
   return all;
 }
 
-int measure_values(const Options& options) {
+int measure_values(const TightnessOptions& options) {
   CampaignOptions campaign = options.campaign;
   expect_different(options.values);
   campaign.trial.subjects = with_values(campaign.trial.subjects, options.values);
@@ -109,7 +109,7 @@ int measure_values(const Options& options) {
   return record_campaign(campaign);
 }
 
-void add_tolerance_options(CLI::App& command, Options& options) {
+void add_tolerance_options(CLI::App& command, TightnessOptions& options) {
   command.add_option("--tolerance", options.names, "Tolerances and tests, separated by commas, or all")
       ->delimiter(',')
       ->capture_default_str()
@@ -129,7 +129,7 @@ void add_tolerance_options(CLI::App& command, Options& options) {
 }
 
 /// Adds the options of a campaign that puts a CCD on trial with each value of one of the CCD's options.
-void add_value_options(CLI::App& command, Options& options) {
+void add_value_options(CLI::App& command, TightnessOptions& options) {
   CampaignOptions& campaign = options.campaign;
   campaign.trial.subjects.clear();
   auto* values = command
@@ -166,7 +166,7 @@ void add_value_options(CLI::App& command, Options& options) {
 }  // namespace
 
 void add_tightness(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TightnessOptions>();
   auto* command =
       app.add_subcommand("tightness",
                          "Measure how far each tolerance can be tightened before a miss is found, "
