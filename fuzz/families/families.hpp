@@ -21,7 +21,7 @@ struct Parameter {
   double lo, hi;
   bool whole = false;  ///< whether x must be a whole number
   std::function<Query(Random&, Kind, double)> make;
-  std::string factor = "";  ///< if set, reports count the queries of each whole x, as FACTOR=2^x
+  std::string factor{};  ///< if set, reports count the queries of each whole x, as FACTOR=2^x
 };
 
 struct Family {

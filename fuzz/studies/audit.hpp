@@ -25,7 +25,7 @@ struct RoundingConstant {
   /// The bound that Gappa proves for rounding to nearest, including the rounding of the vectors
   /// (ccd/wang/bounds/proven.hpp).
   double proven = none;
-  std::string_view note = "";
+  std::string_view note{};
 
   /// Whether neither the theorem nor a proof shows that the constant is large enough.
   [[nodiscard]] bool is_too_small() const {

@@ -27,8 +27,8 @@ using Value = std::variant<std::monostate, std::uint64_t, double, Bin, std::stri
 struct Measure {
   std::string_view key;              ///< in report.json
   Value (*value)(const CountsSum&);  ///< computes the value that files show
-  std::string_view heading = "";     ///< in tables on the terminal
-  std::string_view csv_after = "";   ///< counter before the measure in CSV files; "" if they lack the measure
+  std::string_view heading{};        ///< in tables on the terminal
+  std::string_view csv_after{};      ///< counter before the measure in CSV files; "" if they lack the measure
   std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal; if null, the text of the value
 };
 

@@ -22,9 +22,8 @@ struct Counter {
   std::string_view name;  ///< key in the store, and column of statistics.csv
   Member Owner::*member;
   std::string_view json_key = name;
-  std::string_view json_object =
-      "";  ///< key of the object in report.json that contains the counter; "" if it is in the object of the
-           ///< owner
+  /// Key of the object in report.json that contains the counter. If empty, that is the owner's object.
+  std::string_view json_object{};
 };
 template <class Owner, class Member, class... More>
 Counter(std::string_view, Member Owner::*, More...) -> Counter<Owner, Member>;
