@@ -61,8 +61,9 @@ struct OracleClaim {
 std::vector<OracleClaim> oracle_claims();
 
 /// Describes the faults of a claim. A claim has no faults if all of the following hold: Gappa proves the
-/// bound `proven` in every precision (in double, with underflow); no result overflows; seen <= proven <=
-/// claimed; the witness has exactly the recorded error; and Gappa proves no bound below that error.
+/// bound `proven` in every precision (in double, with underflow), and in double no bound far below it; no
+/// result overflows; seen <= proven <= claimed; the witness has exactly the recorded error; and Gappa proves
+/// no bound below that error.
 std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover);
 
 /// The faults of all claims with their witnesses. Uses two threads.
