@@ -102,7 +102,7 @@ function(nearmiss_tests folder)
   add_executable(${folder}_tests ${sources})
   nearmiss_options(${folder}_tests)
   target_link_libraries(${folder}_tests PRIVATE ${ARGN} nearmiss_testing GTest::gmock GTest::gtest_main)
-  gtest_discover_tests(${folder}_tests TEST_PREFIX ${folder}. PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(${folder}_tests TEST_PREFIX ${folder}. NO_PRETTY_VALUES PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()
 
 # nearmiss_uses_cgal(TARGET): makes the settings for a target that includes CGAL's number types.
