@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view separators = " \t\r,";
 
-/// Removes the first word from `rest`, and returns the word; "" at the end of the line.
+/// Removes the first word from `rest`, and returns this word, or "" if no word is left.
 std::string_view next_word(std::string_view& rest) {
   const auto first = rest.find_first_not_of(separators);
   if (first == std::string_view::npos) return rest = {};
@@ -30,7 +30,7 @@ std::string_view next_word(std::string_view& rest) {
   return word;
 }
 
-/// A finite double or float. Throws Error that says what was expected.
+/// Parses a finite double or float. For any other text, throws Error with `where` and `expected`.
 template <class Number>
 Number parse(std::string_view text, std::string_view where, std::string_view expected) {
   const auto fail = [&] {
@@ -71,8 +71,8 @@ std::size_t significant_digits(std::string_view scientific) {
 }
 
 /// Whether the shortest decimal that is read as this value equals it exactly, so that reading does not round.
-/// The shortest decimal is the nearest decimal with its number of digits. So it is exact if it has as many
-/// digits as the value's exact decimal.
+/// No other decimal with as many digits as the shortest decimal is nearer to the value. So the shortest
+/// decimal is exact if the exact decimal of the value has the same number of digits.
 bool has_exact_decimal(double value) {
   constexpr int most_digits = 767;  // the largest number of digits of a double
   std::array<char, most_digits + 10> text;

@@ -43,8 +43,8 @@ double parse_separation(std::string_view text, std::string_view where);
 /// The shortest C hex float with this value.
 std::string to_hex(double value);
 
-/// The shortest decimal that is read as this value, such as "-2" or "0.25", if it is exactly this value;
-/// otherwise, to_hex(value).
+/// The shortest decimal that is read as this value, such as "-2" or "0.25", if this decimal equals the value
+/// exactly; otherwise, to_hex(value).
 std::string to_exact(double value);
 
 /// A query as hex floats separated by blanks: the vertices at t = 0, then at t = 1 (24 numbers for vt and ee,

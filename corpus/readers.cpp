@@ -39,7 +39,7 @@ void expect_end(const std::istream& in, const std::string& name) {
   if (in.bad()) throw Error(fmt::format("{}: cannot be read to its end", name));
 }
 
-/// Passes the records of a recording to `sink` as cases. Throws Error if there are no such records.
+/// Passes the records of a recording to `sink` as cases. Throws Error if the recording has no usable record.
 void read_records(const fs::path& path, const CaseSink& sink) {
   const std::string name = path.string();
   bool any = false;

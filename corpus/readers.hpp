@@ -18,11 +18,11 @@ using CaseSink = std::function<void(Case&&)>;
 ///  - *.case: one case (case.hpp);
 ///  - *.csv: sample queries of eight rows each. A row of the file has x y z as rational numbers (numerator,
 ///    denominator), and the truth. Every coordinate must be exactly a double. The name of the folder
-///    (edge-edge or vertex-face), or the end of the file's name (ee or vf), determines the kind.
-///    FOLDER/NAME.csv may have no truths, or have them in FOLDER/../mma_bool/NAME_mma_bool.json, an array of
-///    true and false, as in CCD-Query-IO;
-///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. If `path` is a recording, it may
-///    have any name;
+///    (edge-edge or vertex-face), or the end of the file's name (ee or vf), determines the kind. The column
+///    of truths may be missing. Then FOLDER/../mma_bool/NAME_mma_bool.json may have the truths of
+///    FOLDER/NAME.csv, in an array of true and false, as in CCD-Query-IO;
+///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. If `path` is a recording, and not
+///    a folder, it may have any name;
 ///  - *.vt, *.ee, *.vv, *.ve: one query a line (parse_line); '#' starts a comment.
 /// A byte order mark at the beginning of a file is skipped. Other files in a folder are ignored. Throws Error
 /// with file and line, also for a file that is empty, unreadable or of another format, for a recording

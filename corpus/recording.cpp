@@ -82,8 +82,8 @@ UnusedRecords read_recording(const std::filesystem::path& file,
   std::memcpy(all.data(), bytes.data() + sizeof head, all.size() * sizeof(nearmiss_record_slot));
 
   UnusedRecords unused;
-  // The number of records that were begun in the two parts of the file. If the file was cut, the records
-  // beyond its end are lost.
+  // The number of records that the program began to write, in both parts of the file. If the file was cut,
+  // some of these records are lost.
   const auto filled = std::min(head.next_slot[0], head.slots) + std::min(head.next_kept[0], head.kept_slots);
   std::erase_if(all, [](const nearmiss_record_slot& each) {
     return each.number == 0 || nearmiss_record_check(&each) != each.check;

@@ -31,7 +31,7 @@ struct UnusedRecords {
   std::uint64_t not_queries = 0;  ///< have a kind, coordinates, a separation or a tmax that no query can have
 };
 
-/// Whether a stream begins as a recording does. Returns the stream to its beginning.
+/// Whether a stream begins as a recording does. Then moves the stream back to its beginning.
 bool begins_as_recording(std::istream& in);
 
 /// Passes the usable records of a file to `sink`, in the order of the calls. Throws Error if the file is no

@@ -15,8 +15,8 @@
 namespace nearmiss {
 
 /// A sequence of random numbers that depends only on (seed, stream, index): Philox4x64-10 with the key (seed,
-/// stream) and the counter (index, number of the draw / 4). Vector instructions cannot multiply 64-bit
-/// integers: with them, eight streams took 1.6 times as long as without them.
+/// stream) and the counter (index, number of the draw / 4). Vector instructions would not help, because they
+/// cannot multiply 64-bit integers: with them, eight streams took 1.6 times as long as without them.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index)

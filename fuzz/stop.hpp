@@ -35,7 +35,7 @@ class Stop {
   }
 
   [[nodiscard]] bool is_requested() const { return requested_; }
-  /// Whether the work must end. `granted` extends the time limit; a request counts at once.
+  /// Whether the work must end. `granted` extends the time limit, but does not delay a requested end.
   [[nodiscard]] bool is_due(std::chrono::milliseconds granted = {}) const {
     return requested_ || (end_ != Clock::time_point::max() && Clock::now() >= end_ + granted);
   }

@@ -35,7 +35,7 @@ double middle_of(double lo, double hi) {
   return high - low > 1 ? std::ldexp(1.0, std::midpoint(low, high)) : std::midpoint(lo, hi);
 }
 
-/// Narrows an enclosure of the smallest distance, which is above `base`, by exact comparisons.
+/// Narrows an enclosure of the smallest distance by exact comparisons. This distance must be above `base`.
 class Narrowing {
  public:
   Narrowing(exact::SmallestDistance& smallest, double base, const Enclosure& distance)
@@ -68,8 +68,8 @@ class Narrowing {
   std::uint64_t step_ = 64;  ///< the next number is this many doubles below the upper end
 };
 
-/// Like distance_in_units(), but if the smallest distance is at most `base`, [0, base] is narrow enough for
-/// the caller.
+/// Like distance_in_units(), but if the smallest distance is at most `base`, [0, base] suffices as its
+/// enclosure.
 Enclosure distance_above(double base, const Query& query, double unit, const NeededDistance& needed_of) {
   // If needed_of(hi) is infinite, the largest double suffices as the lower end.
   const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };
@@ -158,7 +158,7 @@ bool distance_exceeds(const Query& query, double bound) {
   if (bound == 0) return !touches(query);
   const certified::VertexDifferences differences(query);
   const Conversion to_distance(1, differences.exponent());
-  // Either an upper end that is not above the bound, or a lower end that is above it, decides the comparison.
+  // The enclosure suffices if its upper end is at most the bound, or its lower end is above the bound.
   const auto needed = [&](double upper) {
     return to_distance.upper(upper) <= bound ? 0 : to_distance.at_least(above(bound));
   };

@@ -1,5 +1,5 @@
-// The smallest distance of two primitives over the step. Only the functions whose comments name h, the
-// query's separation, depend on it.
+// The smallest distance of two primitives over the step. A function depends on h, the query's separation,
+// only if its comment names h.
 #pragma once
 
 #include "ccd/query/query.hpp"

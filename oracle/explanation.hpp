@@ -1,4 +1,4 @@
-// What may explain a failure: facts about a query's coplanarity and first contact.
+// Facts that may explain a failure: when the vertices of a query are coplanar, and when its first contact is.
 #pragma once
 
 #include <cstdint>

@@ -15,15 +15,15 @@ enum class RelativeMotion : std::uint8_t {
   other,
 };
 
-/// Compares differences of coordinates exactly, without rounding; the result is `other` if a difference
+/// Finds the relative motion by exact comparisons of differences of coordinates; `other` if a difference
 /// overflows.
 RelativeMotion relative_motion(const Query& query);
 
-/// For primitives at relative rest or in relative translation: whether they meet. If they are at rest, exact
-/// static predicates test whether they meet at t = 0. In translation, the predicates test, for
-/// vertex-triangle, whether the segment along which x0 moves meets the triangle; and for edge-edge, whether
-/// one edge meets the parallelogram that the other edge sweeps. The result is nothing if the predicates
-/// cannot decide, because the end of the relative path is not a double, or a primitive has no length or area.
+/// Whether primitives at relative rest or in relative translation meet. If they are at rest, exact static
+/// predicates test whether they meet at t = 0. In translation, the predicates test, for vertex-triangle,
+/// whether the segment along which x0 moves meets the triangle; and for edge-edge, whether one edge meets the
+/// parallelogram that the other edge sweeps. The result is nothing if the predicates cannot decide, because
+/// the end of the relative path is not a double, or a primitive has no length or area.
 std::optional<bool> meets_by_translation(const Query& query);
 
 }  // namespace nearmiss

@@ -29,8 +29,8 @@ class ApproachSearch {
     return quick.never || quick.comes ? quick : thorough(1);
   }
 
-  /// Narrows the enclosure of `known`. If `known.comes`, the distance is below the separation at the end of
-  /// the new enclosure.
+  /// Narrows the enclosure `known.time`. If `known.comes` is true, the distance is below the separation at
+  /// the end of the new enclosure.
   [[nodiscard]] FirstTime narrow(const FirstTime& known, double width) const {
     constexpr double least_quick_width = 0x1p-40;  // double does not give narrower enclosures
     if (known.comes && width >= least_quick_width) {

@@ -43,7 +43,7 @@ ordered_json extreme_json(const Extreme& extreme) {
   return json;
 }
 
-/// The command that repeats the results of a run. Nothing if a time limit ended several shards of the run (no
+/// The command that repeats the results of a run. Nothing if a time limit ended a run with several shards (no
 /// command can repeat this), or if the fact "again" is not a single nearmiss command that stores a run.
 std::optional<std::string> command_to_repeat(const Run& run) {
   const std::string again = fact(run.info, "again");

@@ -31,7 +31,7 @@ constexpr std::array sub_folders{"cases", "farthest"};
 /// system.
 constexpr const char* part_name = ".nearmiss-part";
 
-/// Whether a path in a report's folder is a file directly in one of `sub_folders`.
+/// Whether a path, relative to a report's folder, has the form of a file directly in one of `sub_folders`.
 bool is_in_sub_folder(const fs::path& path) {
   for (const char* folder : sub_folders)
     if (path.parent_path() == folder) return path.has_filename() && path.filename() != "..";

@@ -94,8 +94,9 @@ struct Polynomials {
   }
 };
 
-/// Whether the primitives meet at a time when all vertices are in one plane. at_border: at a border of the
-/// triangle or at an end of an edge, or anywhere if the normal N is 0 at this time.
+/// Whether and where the primitives meet at a time when all vertices are in one plane. `at_border` means that
+/// they meet at a border of the triangle or at an end of an edge. If the normal N is 0 at this time, they may
+/// meet anywhere.
 enum class Meeting { none, inside, at_border };
 
 Meeting meeting_at(const Polynomials& of, const Root& t) {

@@ -19,7 +19,7 @@
 
 namespace nearmiss::tools {
 
-/// The largest number of queries that an option takes.
+/// The largest value of an option that is a number of queries.
 inline constexpr std::uint64_t most_queries = std::uint64_t{1} << 62;
 
 /// Adds an option whose value is a whole number from `least` to `most`. --help shows the present content of
@@ -48,19 +48,19 @@ void add_verbose_option(CLI::App& command, bool& verbose);
 /// --seed S: the seed of the random queries.
 void add_seed_option(CLI::App& command, std::uint64_t& seed);
 
-/// --compare N and --compare-near-bounds: which queries all exact methods decide.
+/// --compare N and --compare-near-bounds: the queries on which all exact methods of the oracle are compared.
 void add_comparison_options(CLI::App& command, Comparison& comparison);
 
 /// --separation H: the separation of every query.
 struct SeparationOption {
   std::string text;
 
-  /// Adds the option. If `can_be_drawn` is true, the value "drawn" is allowed, which gives each query a
-  /// random separation.
+  /// Adds the option. If `can_be_drawn` is true, the option also takes the value "drawn", with which each
+  /// query has a random separation.
   CLI::Option* add_to(CLI::App& command, bool can_be_drawn = false);
   [[nodiscard]] bool is_given() const { return !text.empty(); }
-  /// The separation for families that have none of their own: "drawn" or a positive number; "" for contact.
-  /// Throws Error if the option's value is neither "drawn" nor a separation.
+  /// The separation of queries in families that have no separations of their own: "drawn", a positive number
+  /// or, for contact, "". Throws Error if the option's value is neither "drawn" nor a separation.
   [[nodiscard]] std::string of_families() const;
   /// The query, with the option's separation if the option is given. Throws Error if the value is not a
   /// separation.
@@ -73,10 +73,10 @@ std::vector<std::string> short_names_of_kinds();
 /// Throws Error if the subject does not decide queries of this kind.
 void expect_kind(const Subject& subject, Kind kind);
 
-/// Throws Error if the subject takes separations for none of these kinds.
+/// Throws Error if there is no kind among these for which the subject takes separations.
 void expect_separation(const Subject& subject, std::span<const Kind> of = kinds_of_meshes);
-/// Throws Error if no subject decides any of these kinds, or if a subject that decides some of them takes
-/// separations for none of them.
+/// Throws Error if no subject decides any of these kinds. Also throws Error if a subject decides some of
+/// these kinds, but takes separations for none of them.
 void expect_separations(const Subjects& subjects, std::span<const Kind> of = kinds_of_meshes);
 
 /// --bound B: one bound B for all pairs, in place of the bound of each pair.
@@ -113,14 +113,14 @@ Subjects make_subjects(const std::vector<std::string>& texts, const isolation::P
                        std::optional<double> given_bound = std::nullopt);
 
 /// Finds the families with these names: NAME, NAME@VALUE and so on (find_any_family). "all" stands for the
-/// families in `all`, "vertices" for the families of vv and ve queries. Throws Error for an unknown or
+/// families in `all`, and "vertices" for the families of vv and ve queries. Throws Error for an unknown or
 /// repeated name, and Stopped if the user ends the command.
 std::vector<Family> find_families(const std::vector<std::string>& names, std::span<const Family> known,
                                   std::span<const Family> all, const Stop& stop);
 
 /// Makes a sweep of each family NAME: families NAME@VALUE for `steps` values of NAME's parameter. "all"
-/// stands for the families in `all` that have a parameter, "vertices" for the families of vv and ve queries
-/// that have one. Throws Error for any other family without a parameter.
+/// stands for the families in `all` that have a parameter, and "vertices" for the families of vv and ve
+/// queries that have a parameter. Throws Error if a family that is named otherwise has no parameter.
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
                                 std::span<const Family> known, std::span<const Family> all);
 

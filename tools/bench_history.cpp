@@ -75,15 +75,15 @@ nlohmann::ordered_json to_json(const BenchRun& run) {
   return {{"about", run.about}, {"rows", std::move(rows)}};
 }
 
-/// With fewer pairs of runs, even the least and the largest ratio enclose the median with less than 95 %
-/// confidence.
+/// With fewer pairs of runs, even the interval from the smallest to the largest ratio contains the median
+/// with less than 95 % confidence.
 constexpr std::size_t fewest_pairs = 6;
 
-/// How much the time of a row of the table of times differs between two series of runs.
+/// By which factor the time in one row of the table of times changes from one series of runs to another.
 struct Change {
   double ratio;   ///< the median, over all pairs of runs, of the time after divided by the time before
   double lo, hi;  ///< the ends of a confidence interval of this median, of at least 95 %
-  /// "faster" or "slower" if the interval does not contain 1, otherwise "within noise".
+  /// "faster" or "slower" if the confidence interval does not contain 1, otherwise "within noise".
   [[nodiscard]] std::string_view verdict() const {
     return hi < 1 ? "faster" : lo > 1 ? "slower" : "within noise";
   }

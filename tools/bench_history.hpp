@@ -36,7 +36,7 @@ struct TimedRow {
 /// One run of nearmiss bench.
 struct BenchRun {
   RunInfo about;  ///< the commit that was timed, the compiler, its flags and the processor
-  std::map<TimedRow, std::vector<double>> times;  ///< of each pass, in ns per query; NaN without an answer
+  std::map<TimedRow, std::vector<double>> times;  ///< ns per query in each pass; NaN without an answer
 };
 
 /// Reads the runs in a history, a file with a line of JSON for each run. Throws Error if the file cannot be
@@ -47,10 +47,10 @@ std::vector<BenchRun> read_history(const std::filesystem::path& file);
 /// file as it was.
 void append_to_history(const std::filesystem::path& file, const BenchRun& run);
 
-/// A table of how the times of each row differ between two series of runs, from before and after a change of
-/// the code. Compares a row's median time over the passes of run i in `before` with that of run i in `after`;
-/// these two runs should have followed each other directly. Throws Error if the series have different lengths
-/// or fewer than six runs, or if the runs used different processors.
+/// A table that shows for each row how its time differs between two series of runs, before and after a change
+/// of the code. For each i, compares run i in `before` with run i in `after`, which should have followed each
+/// other directly: compares the medians of the row's times over all passes of the run. Throws Error if the
+/// series have different lengths or fewer than six runs, or if the runs used different processors.
 std::string comparison_table(const std::vector<BenchRun>& before, const std::vector<BenchRun>& after);
 
 }  // namespace nearmiss::tools

@@ -62,7 +62,8 @@ std::string show(const CampaignProgress& now, const TimeLimit& time, const Stati
   return show_duration(std::max(left, {})) + " left, " + line;
 }
 
-/// The kinds chosen with --kind; without --kind, all kinds that at least one subject decides.
+/// The kinds chosen with --kind; without --kind, the kinds that a campaign asks these subjects by default
+/// (kinds_to_ask).
 std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& subjects) {
   if (options.kinds.empty()) {
     const bool of_meshes = !options.separation.of_families().empty();
@@ -77,8 +78,8 @@ std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& s
   return chosen;
 }
 
-/// The family, restricted to the chosen kinds. If the family has none of these kinds, throws Error with
-/// --kind, and returns the family as it is without --kind.
+/// The family, restricted to the kinds `asked`. If the family has none of these kinds, throws Error if the
+/// user has given --kind, and otherwise returns the whole family.
 Family with_kinds(const CampaignOptions& options, const Family& family, std::span<const Kind> asked) {
   if (const auto chosen = of_kinds(family, asked)) return *chosen;
   if (!options.kinds.empty()) expect_kind(family, asked.front(), "--kind");
@@ -110,8 +111,8 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
   const std::size_t of_meshes = known.size();
   known.insert(known.end(), vertex_families().begin(), vertex_families().end());
   known.insert(known.end(), near_within.begin(), near_within.end());
-  // "all" includes families of vt and ee queries with separations of their own only if --separation is
-  // "drawn".
+  // Some families of vt and ee queries have separations of their own. "all" includes these families only if
+  // --separation is "drawn".
   std::vector<Family> all(
       known.begin(),
       known.begin() + static_cast<std::ptrdiff_t>(separation == drawn_separation ? of_meshes : contact));
@@ -127,8 +128,8 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
     if (!separation.empty() && !family.has_separation) family = with_separation(family, separation);
     if (!options.separation.is_given()) family = as_asked(family);
     family = with_kinds(options, family, asked);
-    // A subject that takes no separations is an error only if the user names families or gives --separation.
-    // Otherwise, it is not asked.
+    // If the family has separations, a subject that takes none is an error only if the user names families or
+    // gives --separation. Otherwise, the subject is not asked.
     if (family.has_separation && (are_named || options.separation.is_given()))
       expect_separations(subjects, kinds_asked(family));
   }

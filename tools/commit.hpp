@@ -6,9 +6,9 @@
 namespace nearmiss::tools {
 
 /// The commit that was checked out when nearmiss was built, as 40 hexadecimal digits. If the source code
-/// differed from the commit, "-dirty." and the beginning of a digest of the changes follow. The digest has
-/// the names of new files, but not their content. "unknown" if the source code was not in a Git repository of
-/// its own.
+/// differed from the commit, "-dirty." and the beginning of a digest of the changes follow. The digest covers
+/// the names of new files, but not their content. Returns "unknown" if the source code was not in a Git
+/// repository of its own.
 std::string commit();
 
 }  // namespace nearmiss::tools

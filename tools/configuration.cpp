@@ -71,7 +71,8 @@ class SimpleToml {
     return std::move(text_);
   }
 
-  /// The line that sets each option, by the option's name. Includes names that no option has.
+  /// For the name of each option that the file sets: the number of the line that sets it. Includes names that
+  /// no option has.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 
  private:

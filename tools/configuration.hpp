@@ -17,7 +17,7 @@ class ConfigurationFile final : public CLI::ConfigTOML {
   /// Reads the options. The message of an Error begins with "--config:LINE: ".
   [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
 
-  /// For the file that was read last: the line that sets each option, by the option's name. Includes names
+  /// For the name of each option that the last file sets: the number of the line that sets it. Includes names
   /// that no option has.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 

@@ -87,7 +87,8 @@ std::string help_for(int argc, char** argv) {
   return argc > 1 && argv[1][0] != '-' ? fmt::format("nearmiss {} --help", argv[1]) : "nearmiss --help";
 }
 
-/// Adds the names of a command's options, without those of its subcommands and groups of options.
+/// Adds the names of a command's own options to `names`. Leaves out the options of its subcommands and of its
+/// groups of options.
 void add_options(const CLI::App& command, std::vector<std::string>& names) {
   for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -123,8 +124,8 @@ std::string with_short_words(std::string_view text) {
   return result;
 }
 
-/// Throws Error if an argument or the value of an option is empty, or consists only of commas. This happens
-/// if the user writes a variable of the shell that is not set.
+/// Throws Error if an argument or the value of an option is empty, or consists only of commas. Such an
+/// argument is what the shell passes if the user writes a variable that is not set.
 void expect_values(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string_view argument = argv[i];
@@ -139,8 +140,8 @@ void expect_values(int argc, char** argv) {
   }
 }
 
-/// If the environment variable NEARMISS_LANES has a value, vector instructions compute this number of doubles
-/// at once. `variable` is the value, or null.
+/// Chooses the vector instructions that compute as many doubles at once as the environment variable
+/// NEARMISS_LANES says. `variable` is the value of NEARMISS_LANES, or null.
 void choose_lanes(const char* variable) {
   if (variable == nullptr || *variable == '\0') return;
   try {
@@ -188,8 +189,9 @@ bool is_about(std::string_view message, const std::string& option) {
   return at != message.npos && (end == message.size() || !is_of_name(message[end]));
 }
 
-/// If a message is about an option that was read from the configuration file and is not an argument, throws
-/// Error with the file, the line and the message. Returns otherwise.
+/// Throws Error with the file, the line and the message if the configuration file is to blame: if it could
+/// not be read, or if a message is about an option that is set in this file, and not by an argument. Returns
+/// otherwise.
 void refuse_configuration(const CLI::App& app, const nearmiss::tools::ConfigurationFile& configuration,
                           const std::string& message, int argc, char** argv) {
   if (app.get_config_ptr()->count() == 0) return;
@@ -302,8 +304,8 @@ int main(int argc, char** argv) {
         odd.c_str());
   keep_freed_memory();
   end_if_memory_runs_out();
-  // Sets the arithmetic before any thread starts, because a thread inherits the arithmetic of the thread
-  // that starts it.
+  // Sets the rounding mode and the treatment of subnormals before any thread starts, because a thread
+  // inherits them from the thread that starts it.
   const nearmiss::PlainArithmetic plain;
   try {
     return run(argc, argv);

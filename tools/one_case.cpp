@@ -63,7 +63,7 @@ std::string answer(const SubjectVerdict& verdict, const Counts& counts, const Fi
   return counts.collisions > 0 ? reported(counts) : "reports no collision";
 }
 
-/// "first contact at t* = 0.5", or a text that there is no contact and how close the primitives come.
+/// The truth about a query: "first contact at t* = 0.5" or, without a contact, how close the primitives come.
 std::string exact_answer(const Query& query) {
   const double h = query.separation;
   const Decision decision = decide(query);
@@ -75,7 +75,8 @@ std::string exact_answer(const Query& query) {
                      EarliestTime(query).enclosure().lo);
 }
 
-/// "degenerate vt query (coplanar at an end)"
+/// The class and the kind of a query, and for a degenerate query the reason for its class: "degenerate vt
+/// query (coplanar at an end)".
 std::string class_text(const Query& query) {
   const QueryClass of = classify(query);
   const std::string_view why = why_not_ordinary(query);

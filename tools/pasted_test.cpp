@@ -61,8 +61,9 @@ std::string what_is_true(const Query& query) {
 }
 
 /// The largest double that is not a late time. For a separation h > 0, a time is late if the distance is
-/// below h before it. For contact, a time is late if it is after t*, the exact earliest time. Throws Error if
-/// the distance does not fall below h > 0 right after t*, because then times just after t* are not late.
+/// already below h at an earlier time. For contact, a time is late if it is after t*, the exact earliest
+/// time. Throws Error if the distance does not fall below h > 0 right after t*, because then times just after
+/// t* are not late.
 double largest_time(const Query& query) {
   auto earliest = *earliest_time(query);
   const double lo = earliest.enclosure().lo;

@@ -52,7 +52,8 @@ std::string table(const Distances& results) {
              100 * DistanceError::part_of_distance, DistanceError::part_of_size);
 }
 
-/// The quantile `part` of a histogram, as a percentage: the lower end of the bin that has the quantile.
+/// A quantile of a histogram, as a percentage. Returns the lower end of the bin that contains the quantile
+/// for the probability `part`.
 std::string percentage(const Histogram& histogram, double part) {
   return fmt::format("{:.3g} %", 100 * std::min(histogram.quantile(part).from, 1.0));
 }

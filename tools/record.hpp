@@ -58,11 +58,13 @@ class Record {
   /// nothing was ever saved in it.
   ~Record();
 
-  /// The shard, including the work of earlier processes if the run was resumed.
+  /// The shard that this run decides. If the run was resumed, the shard's number of cases and run time
+  /// include the work of earlier processes.
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// Adds a result, and replaces findings that have been shrunk since they were added. Saves at intervals.
+  /// Adds a result. If the result has the shrunk form of an earlier finding, it replaces this finding. Saves
+  /// at intervals.
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store. If another process has locked the store, waits up to half a
   /// minute.
@@ -71,7 +73,7 @@ class Record {
   void save_now();
   [[nodiscard]] const Statistics& statistics() const { return statistics_; }
 
-  /// Adds the subjects that were asked no query to the results.
+  /// Adds to the results those subjects that were asked no query.
   void add_unasked(const Subjects& subjects);
 
   /// Saves, closes the store, prints the summary and the first findings, writes the JSON, and returns the

@@ -24,7 +24,8 @@ std::atomic<bool> stop_requested{false};
 std::atomic<std::time_t> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
 
-/// Ends the program, unless this signal comes right after the one that set the flag, and so may repeat it.
+/// Ends the program, unless this signal comes right after the signal that set the flag: then it may be only a
+/// repetition of that signal.
 extern "C" void end_on_signal(int /*signal*/) {
   constexpr std::time_t patience = 2;  // seconds; wrappers such as timeout(1) send a signal twice at once
   if (std::time(nullptr) - first_signal < patience) return;

@@ -59,8 +59,8 @@ void count_faults(const std::vector<Verdict>& verdicts, Counts& counts) {
     if (each.fault != Fault::none) ++counts.faults[static_cast<std::size_t>(each.fault)];
 }
 
-/// Judges a subject's answers, on all processors: compares each with the truth about the query as the subject
-/// rounds it.
+/// Judges a subject's answers, on all processors. Compares each answer with the truth about
+/// Subject::rounded() of the query, because the subject decides this rounded query.
 Counts judge(const Subject& subject, std::span<const Query> queries, std::span<const Verdict> verdicts,
              const Stop& stop) {
   constexpr std::size_t at_once = 1024;

@@ -10,11 +10,11 @@
 
 namespace nearmiss::tools {
 
-/// Times of one subject on one input in ns per query, one entry for each run; NaN if the subject answered no
-/// query.
+/// The times of one subject on one input. Entry i is the time of run i, in ns per query; NaN if the subject
+/// answered no query.
 using RunTimes = std::vector<double>;
 
-/// The measurements of one subject on one input, one entry for each run.
+/// The measurements of one subject on one input. Each list has one entry for each run.
 struct Measured {
   RunTimes times;
   RunTimes kernels;     ///< `times` without copies to a device; NaN if the subject does not give them
@@ -25,8 +25,8 @@ struct Measured {
 bool any_separation(const std::vector<Query>& queries);
 
 /// Times the subjects by turns in every run, so that noise of the machine affects all subjects alike. If
-/// `judges` is true, judges the answers of the last run. Adds each subject's queries and faults, and the
-/// misses among judged answers, to `answered`.
+/// `judges` is true, judges the answers of the last run. Adds to `answered` each subject's numbers of queries
+/// and faults and, of the judged answers, the numbers of collisions and misses.
 std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
                                bool judges, const Stop& stop, Statistics& answered);
 

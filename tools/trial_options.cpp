@@ -74,7 +74,7 @@ Subjects TrialOptions::keep_contracts(Subjects made) const {
 
 namespace {
 
-/// The name of the fact by which a run records a renamed subject.
+/// The name of the fact that says which built-in subject a renamed subject is.
 std::string subject_fact(const std::string& subject) { return std::string(about_subject) + subject; }
 
 std::string plugin_fact(const std::string& subject) { return std::string(about_plugin) + subject; }
@@ -135,8 +135,9 @@ std::string absolute_path(const std::string& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
-/// The command of a program in a form that works in any current folder. Unless all words of the command are
-/// absolute paths, this form begins with a cd.
+/// The command of a program in a form that works in any current folder. This form begins with a cd, unless
+/// each word of the command is an absolute path or, for the first word, a name that the shell looks up in
+/// $PATH.
 std::string absolute_command(const std::string& command) {
   const std::vector<std::string> words = shell_words(command);
   const bool is_absolute = std::all_of(words.begin(), words.end(), [&](const std::string& word) {

@@ -22,19 +22,19 @@
 
 namespace nearmiss {
 
-/// Decides queries of one kind in steps: plane culling, the clearance of F (the coplanarity cubic), the roots
-/// of F, the tests at the roots. Each step processes those queries that the previous steps have left
-/// undecided, n queries at a time. Queries that need vertex-edge tests, another frame or another order of end
-/// points stay undecided. A lane computes exactly what the templates of wang.hpp compute for its query, so n
-/// changes no verdict.
+/// Decides queries of one kind in four steps: plane culling; the rejection of queries for which the
+/// coplanarity cubic F stays away from 0; the search for roots of F; and the tests at the roots. Each step
+/// processes those queries that the previous steps have left undecided, n queries at a time. Queries that
+/// need vertex-edge tests, another frame or another order of end points stay undecided. A lane computes
+/// exactly what the templates of wang.hpp compute for its query, so n changes no verdict.
 template <int n, Kind kind>
 class WangLanes {
  public:
   WangLanes(const QueryRows& queries, Verdict* verdicts, const std::optional<double>& given)
       : queries_(queries), verdicts_(verdicts), given_(given) {}
 
-  /// Decides the queries of the kind `kind`, and returns their number. The batch has at most
-  /// `wang_batch_size` queries.
+  /// Decides the queries of the kind `kind`. Returns the number of queries of this kind, decided or not. The
+  /// batch has at most `wang_batch_size` queries.
   std::size_t run() {
     Rows of_kind;
     for (std::size_t row = 0; row < queries_.size(); ++row) of_kind.add_if(queries_.kind(row) == kind, row);
@@ -70,7 +70,7 @@ class WangLanes {
     std::size_t size_ = 0;
   };
 
-  /// coordinates() of n queries, one in each lane.
+  /// The coordinates of n queries, one query in each lane.
   struct Points {
     std::array<Real, 24> x;  ///< in the order of Query::x
     const Real& operator()(std::size_t time, std::size_t vertex, std::size_t k) const {
@@ -87,8 +87,8 @@ class WangLanes {
     return points;
   }
 
-  /// The lanes hold the elements first, first + 1, ... of a list with `size` elements. Calls visit(lane) for
-  /// each lane that has an element.
+  /// Lane k holds element first + k of a list with `size` elements, if there is such an element. Calls
+  /// visit(lane) for each lane that holds an element.
   template <class Visit>
   static void for_lanes(std::size_t first, std::size_t size, const Visit& visit) {
     const std::size_t count = std::min<std::size_t>(n, size - first);
@@ -121,7 +121,7 @@ class WangLanes {
       const Points x = points([&](std::size_t lane) { return rows[i + lane]; });
       const auto separated =
           each(Mask(detail::separated_across_axis<kind>(x) | detail::separated_across_diagonal<kind>(x)));
-      // Four sums instead of one, because each addition to a sum must wait for the addition before.
+      // Four sums are faster than one: each addition to a sum must wait for the previous one.
       std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; ++c) sums[c % 4] += x.x[c];
       const auto finite = each(Mask(abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < Real(HUGE_VAL)));
@@ -135,15 +135,15 @@ class WangLanes {
     return left;
   }
 
-  /// Rejects the pairs whose |F| stays above μ, as keeps_clear() and solve_cubic() do. Keeps F and the bounds
-  /// W and B (see Pair) of the other pairs, except those that need another frame or another order of end
-  /// points.
+  /// Rejects the pairs whose |F| stays above μ, as keeps_clear() and solve_cubic() do. For the other pairs,
+  /// stores F and the bounds W and B (see Pair), except for pairs that need another frame or another order of
+  /// end points.
   void reject_clear(const Rows& rows) {
     for (std::size_t i = 0; i < rows.size(); i += n) {
       Pair<kind, Real> pair;
       form_vectors(points([&](std::size_t lane) { return rows[i + lane]; }), pair);
       const Cubic<Real> F = coplanarity(pair);
-      // If the sum of squares is in range, all vectors are finite.
+      // If the sum of the squares of all components is in range, all vectors of the pair are finite.
       const Mask plain = in_range(detail::sum_of_squares(pair)) & detail::take_bound(pair, given_);
       Mask clear = plain & (clearance(F) > paper_tolerances(pair.B).mu);
       if (!given_) clear = clear | detail::keeps_clear(pair, F, PaperTolerances{});
@@ -164,7 +164,7 @@ class WangLanes {
     Cubic<Real> F;
     Real W, B;
   };
-  /// The Polynomial of n queries; `take` reads their n numbers from each column.
+  /// The Polynomial of n queries. take(column) returns the numbers of these queries from a column.
   template <class Take>
   Polynomial polynomial(const Take& take) const {
     return {{take(columns_[0]), take(columns_[1]), take(columns_[2]), take(columns_[3])},

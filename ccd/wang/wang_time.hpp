@@ -20,14 +20,14 @@
 
 namespace nearmiss {
 
-/// The least threshold μ of |F|, in units of B³ε, with which `solve_cubic` misses no root, for rounding to
-/// nearest and ε <= 2^-10: `cubic_residual` is at most 436, and 440 has room for the rounding of the product
-/// with B³ε. For double, this μ is about a thousandth of the μ with which `wang` decides. Therefore the time
-/// that represents a root is much closer to the root.
+/// A threshold μ of |F|, in units of B³ε, that is just large enough for `solve_cubic` to miss no root (with
+/// rounding to nearest and ε <= 2^-10). `cubic_residual` is at most 436; the rest of 440 is for the rounding
+/// of the product with B³ε. For double, this μ is about a thousandth of the μ with which `wang` decides. So
+/// the time that represents a root is much closer to the root than in `wang`.
 inline constexpr int least_residual = 440;
 
-/// The bound of the error of the distance of two vertices along an axis or a diagonal, in units of Bε, at any
-/// time up to the result of `separated_until`.
+/// The distance of two vertices along an axis or a diagonal is computed with an error of at most this bound,
+/// in units of Bε. The bound holds at any time up to the result of `separated_until`.
 ///
 /// Let every operation have a relative error of at most u = ε/2. No component of a position or velocity
 /// exceeds B in magnitude, except that in an edge-edge pair, the components of p may be up to 2B at t = 1.
@@ -35,9 +35,9 @@ inline constexpr int least_residual = 440;
 /// - Velocity: p has an error of u(|start| + |end| + |v|) <= 4uB; q and r have 3uB each. These are 10uB, and
 ///   the two sums add 5uB. Together with the position, this is 23uB.
 /// - A diagonal adds two components: 46uB. The two sums, of positions and of velocities, add 6uB each: 58uB.
-/// - The time is a quotient whose numerator has one rounding more. So it is too large by a factor of at most
-///   1 + 3u. The distance changes by at most 6B in the whole step, so by at most 18uB in the fraction 3u of
-///   the step.
+/// - The time is a quotient, and the subtraction in its numerator adds one rounding. So the time is too large
+///   by a factor of at most 1 + 3u. The distance changes by at most 6B in the whole step, so by at most 18uB
+///   in the fraction 3u of the step.
 /// The sum is 76uB = 38εB, and 40 has room for terms of second order.
 inline constexpr int gap_error = 40;
 
@@ -63,8 +63,9 @@ std::array<T, plane_count> across_planes(const Vector3<T>& x) {
   return {x[0], x[1], x[2], x[0] + x[1], x[0] + x[2], x[1] + x[2], x[0] - x[1], x[0] - x[2], x[1] - x[2]};
 }
 
-/// A time before which a moving plane perpendicular to an axis or a diagonal separates the primitives: until
-/// then, the components of all `vertex_differences` in the direction of this axis or diagonal keep one sign.
+/// A time until which a moving plane separates the primitives. The plane is perpendicular to an axis or a
+/// diagonal, and until this time, the components of all `vertex_differences` in the direction of this axis or
+/// diagonal keep one sign.
 template <Kind kind, class T>
 T separated_until(const Pair<kind, T>& pair) {
   const T error = gap_error * epsilon<T>() * pair.B;
@@ -87,7 +88,7 @@ T separated_until(const Pair<kind, T>& pair) {
   return latest;
 }
 
-/// A time in interval i such that the exact F has no root in the part of this interval before the time.
+/// A time in interval i before which the exact F has no root in this interval.
 ///
 /// By (2) of `solve_cubic`, there is no root between two times of the interval at which F has the same sign
 /// and |F| exceeds `residual` - h, where h is the error of evaluating F. To find such a time, the function
@@ -106,13 +107,13 @@ T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residua
                      T(residual / 2));
 }
 
-/// A time before which there is no contact. There must be no contact before `from`.
+/// A time before which there is no contact. The caller must know that there is no contact before `from`.
 ///
 /// The time t0 of a contact is a root of the exact F. The claim of `solve_cubic` holds for each interval
-/// between two nodes, and for a part of an interval: if t0 is in the interval, `root_in_interval` represents
-/// t0. So an interval has no contact if `root_in_interval` finds no time, or if `excludes_collision` is true
-/// for this time. In the first interval without such a proof, there is no contact before the time that
-/// `before_root` gives.
+/// between two nodes, and for a part of an interval: if t0 is in the interval, `root_in_interval` returns a
+/// time that represents t0. So an interval has no contact if `root_in_interval` finds no time, or if
+/// `excludes_collision` is true for this time. In the first interval without such a proof, there is no
+/// contact before the time that `before_root` gives.
 template <Kind kind, class T>
 T rootless_until(const Pair<kind, T>& pair, T from) {
   const Cubic<T> F = coplanarity(pair);
@@ -151,9 +152,10 @@ template <Kind kind, class T>
 /// before this time, whatever test accepted the pair. The time depends neither on `given` nor on the
 /// tolerances.
 ///
-/// A moving plane separates the primitives until `separated_until`. From then until `rootless_until`, no root
-/// of F can be a contact. If F is nearly 0 for a long time, as for primitives that move in one plane,
-/// `rootless_until` ends early; the time is then 0 if no plane separates the primitives at t = 0.
+/// A moving plane separates the primitives until the time that `separated_until` returns. From then until the
+/// time that `rootless_until` returns, no root of F can be a contact. If F is nearly 0 for a long time, as
+/// for primitives that move in one plane, `rootless_until` returns an early time, or 0 if no plane separates
+/// the primitives at t = 0.
 template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances>
 Verdict wang_time(const Query& query, const std::optional<double>& given = std::nullopt,
                   const Rule& tolerances = {}) {

@@ -28,7 +28,8 @@ VertexEdge<T> vectors_of_vertices(const Query& query, const Frame& frame) {
 // A bound of the components of the three vectors of a VertexEdge at all times: the largest component of a
 // position at t = 0 plus the largest component of a velocity, times 1 + `bound_margin` ε. Each of these two
 // components has an error of at most 2u times the bound, and the sum adds u, so the result is at least 1 +
-// `bound_needs` ε times the exact bound. NaN if a position overflows at both times.
+// `bound_needs` ε times the exact bound. The result is NaN if a component of a position or a velocity is not
+// finite.
 template <class T>
 T bound_of_vectors(const VertexEdge<T>& ve) {
   const auto largest = [&](const auto& part) {
@@ -44,8 +45,8 @@ T bound_of_vectors(const VertexEdge<T>& ve) {
 
 }  // namespace detail
 
-/// A query of the kind vv or ve as Algorithms 1 and 2 compute with it: its vectors in a frame, their bound B,
-/// and the distance R that the query asks about.
+/// A query of the kind vv or ve, in the form that Algorithms 1 and 2 need: its vectors in a frame, their
+/// bound B, and the distance R that the query asks about.
 template <class T>
 struct WithinQuery {
   VertexEdge<T> ve;  ///< for two vertices, x_ji is 0
@@ -89,12 +90,12 @@ struct WithinQuery {
   }
 };
 
-/// Algorithm 1 with D = R for two vertices, and Algorithm 2 for a vertex and an edge, where R is the query's
-/// separation. Reports every pair that comes within R at some t in [0, 1], and no pair that stays farther
-/// apart than R plus within_distance_bound(). B is `given` if it is set, else the primitives' own bound. For
-/// R < 2B, the tolerances of the rule satisfy the inequalities of §4.2 and §4.3; for larger R, every pair is
-/// within R. If `plane_culling` is true, pairs for which separated_across_axis_by() is true are rejected
-/// first.
+/// Decides a query of two vertices by Algorithm 1 with D = R, and a query of a vertex and an edge by
+/// Algorithm 2, where R is the query's separation. Reports every pair that comes within R during the step,
+/// and no pair that stays farther apart than R plus within_distance_bound(). B is `given` if it is set, else
+/// the primitives' own bound. For R < 2B, the tolerances of the rule satisfy the inequalities of §4.2 and
+/// §4.3; for larger R, every pair is within R. If `plane_culling` is true, pairs for which
+/// separated_across_axis_by() is true are rejected first.
 template <class T, class Rule = PaperTolerances>
 Verdict wang_within(const Query& query, bool plane_culling, const std::optional<double>& given = std::nullopt,
                     const Rule& rule = {}) {

@@ -21,8 +21,7 @@ double short_separation(Random& random) {
   return std::ldexp(odd_or_even, -random.integer(0, 4));
 }
 
-/// The last step of families whose numbers have few bits: sets the separation, then turns and scales the
-/// query.
+/// Completes a query whose numbers have few bits: sets the separation, then turns and scales the query.
 Query placed_apart(Random& random, const Query& query, double separation) {
   return rescaled(random, turned(random, with_separation(query, separation)));
 }
@@ -37,7 +36,7 @@ Vector approaching(Random& random) {
 
 /// A query of another family, with primitives that stay apart. Let d be the smallest distance, rounded up to
 /// a double. In half of the queries, h is (1 + 2^x) d; in the other half, h is (1 - 2^x) times the double
-/// below d. With x = -54, these are d and the double below d.
+/// below d. With x = -54, these values of h are d and the double below d.
 Query near_separation(Random& random, Kind kind, double x) {
   constexpr std::array bases{"uniform",    "uniform-end", "uniform-slow", "decimals",
                              "kilometres", "needle",      "rigid",        "near-parallel-edges"};

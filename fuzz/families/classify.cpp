@@ -71,9 +71,9 @@ Real largest_component(const Vec<Real>& v) {
   return largest;
 }
 
-/// The lengths of the longest and of the shortest edge, at t = 0 or t = 1, and of the longest displacement of
-/// a vertex. The length of a vector is the largest magnitude of its components. Two vertices have no edges;
-/// the vector from one to the other counts as an edge.
+/// The length of the longest edge and of the shortest edge, at t = 0 or t = 1, and the length of the longest
+/// displacement of a vertex. The length of a vector is the largest magnitude of its components. Two vertices
+/// have no edges; the vector from one to the other counts as an edge.
 template <class Real>
 struct Lengths {
   Real longest = 0;
@@ -127,7 +127,7 @@ bool is_extreme(const Query& query) {
 constexpr double nearly = 1e-6;
 constexpr std::string_view extreme = "extreme";
 
-/// The vertices at a time, their velocities, and the square of the largest length that is_near() calls short.
+/// The vertices at a time, their velocities, and the squared distance up to which is_near() is true.
 template <class Real>
 struct Moment {
   Kind kind{};
@@ -177,7 +177,7 @@ bool holds_at(const Enclosure& time, const FindRoot& find_root, const Query& que
       });
 }
 
-/// The sum, over the given pairs of vertices, of the squared distance between both vertices.
+/// The sum of the squared distances between the two vertices of each pair.
 template <class Real>
 Real sum_of_squares(std::span<const VertexPair> pairs, const Points<Real>& x) {
   const auto square = [&](VertexPair pair) {
@@ -208,8 +208,8 @@ Squares<Real> squares(Kind kind, const Points<Real>& x) {
 
 constexpr double excess(Kind kind) { return has_triangle(kind) ? 27 : 4; }
 
-/// The three vectors whose determinant is F. If `x` holds velocities in place of positions, the rates at
-/// which these vectors change.
+/// The three vectors whose determinant is F. If `x` holds velocities in place of positions, returns the rates
+/// at which these vectors change.
 template <class Real>
 std::array<Vec<Real>, 3> spans(Kind kind, const Points<Real>& x) {
   const auto difference = [&](VertexPair pair) { return x[pair.to] - x[pair.from]; };

@@ -19,8 +19,8 @@ QueryClass classify(const Query& query);
 /// first rule that holds, in a few words, such as "coplanar at an end".
 std::string_view why_not_ordinary(const Query& query);
 
-/// Accepts the queries of class `of` whose exoticness() is at most `most`. For example, with degenerate and
-/// 1, it accepts degenerate queries in which no two vertices coincide.
+/// Accepts the queries of class `of` whose exoticness() is at most `most`. For example, if `of` is degenerate
+/// and `most` is 1, it accepts degenerate queries in which no two vertices coincide.
 struct NoMoreExotic {
   QueryClass of;
   int most;

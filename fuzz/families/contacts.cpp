@@ -166,7 +166,7 @@ Query rescaled(Random& random, Query query) {
 }
 
 Query turned(Random& random, Query query) {
-  // Each pair has a matrix with orthogonal rows of equal length, and that length.
+  // Each pair consists of a matrix with orthogonal rows of equal length, and the length of these rows.
   static const std::array<std::pair<Eigen::Matrix3d, double>, 5> rotations{
       {{Eigen::Matrix3d{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1},
        {Eigen::Matrix3d{{1, 2, 2}, {2, 1, -2}, {2, -2, 1}}, 3},

@@ -41,10 +41,10 @@ struct Contact {
   [[nodiscard]] Vector3<double> velocity(Kind kind) const;
 };
 
-/// The query in which the first primitive's point of contact passes the place c of contact with velocity w:
-/// it is at c + (t - time) w. This point is the vertex (vertex-triangle) or the point at weight α of the
-/// first edge (edge-edge). If all numbers are small multiples of one power of two, every operation is exact
-/// in double, and the primitives touch exactly at `time`.
+/// The query in which the first primitive's point of contact moves with velocity w through the place of
+/// contact, c: at time t, the point is at c + (t - time) w. The point is the vertex (vertex-triangle) or the
+/// point at weight α of the first edge (edge-edge). If all numbers are small multiples of one power of two,
+/// every operation is exact in double, and the primitives touch exactly at `time`.
 Query meet(Kind kind, const Contact& contact, const Vector3<double>& w);
 
 /// Draws contacts of primitives of size 1, and parts of such contacts. Half of the samplers draw multiples of
@@ -59,15 +59,15 @@ class ContactSampler {
   Vector3<double> direction();
   /// A power of two from 2^-bits to 1.
   double fraction(int bits) { return std::ldexp(1.0, -random_.integer(0, bits)); }
-  /// The speed of primitives of size 1: 0, or between 2^-12 and 1 per step.
+  /// A speed for primitives of size 1: 0, or between 2^-12 and 1 per step.
   double speed() { return random_.one_in(3) ? 0 : fraction(12); }
-  /// A velocity of a size drawn by fraction(12).
+  /// A velocity of about the magnitude that fraction(12) draws.
   Vector3<double> velocity();
   /// A weight or time in [0, 1], often 0 or 1. One in eight is outside this interval, by a power of two that
   /// may be as small as ε.
   double weight();
-  /// The weights of a point inside the primitives, on an edge, at a vertex or slightly outside, and a time.
-  /// All three numbers are drawn by weight().
+  /// Draws a time, and the weights of a point that is inside the primitives, on an edge, at a vertex or
+  /// slightly outside. weight() draws all three numbers.
   Aim aim(Kind kind);
   /// Primitives of size 1; aim() draws the contact. The sides change at the given speed, and base stays at 0.
   Contact contact(Kind kind, double speed);

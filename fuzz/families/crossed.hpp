@@ -55,7 +55,7 @@ std::vector<std::string> to_texts(const Levels& levels);
 
 Query make_query(Random& random, Kind kind, const Levels& levels);
 
-/// Counts the combinations of the values of two factors, or of three.
+/// How many combinations of the values of two factors (or of three) the family makes, and how many are seen.
 struct Combinations {
   std::uint64_t made = 0;  ///< number of combinations that the family makes
   std::uint64_t seen = 0;

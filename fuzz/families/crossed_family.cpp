@@ -18,7 +18,7 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Sides at the contact with their velocities, and the relative velocity of the points of contact.
+/// The sides at the contact, their velocities, and the relative velocity w of the points of contact.
 struct Draft {
   Vector q, r, q_velocity, r_velocity, w;
 };
@@ -182,8 +182,9 @@ Draft draft_of(Random& random, Kind kind, const Levels& levels, double time) {
   return draft;
 }
 
-/// Whether F has no more roots at the contact than planned. With F = τ (a + b τ + c τ²), the first
-/// coefficient that the construction does not make zero must not be zero by chance.
+/// Whether F has no more roots at the contact than planned. Let F = τ (a + b τ + c τ²). The construction
+/// makes the first of these coefficients zero, as many as planned; the next coefficient must not be zero by
+/// chance.
 bool has_planned_roots(const Draft& draft, Roots roots) {
   const auto det = [&](const Vector& q, const Vector& r) { return draft.w.dot(q.cross(r)); };
   switch (roots) {
@@ -318,7 +319,7 @@ Query make_query(Random& random, Kind kind, const Levels& levels) {
   for (;;) {
     const Frame frame = frame_of(random, levels.offset());
     // The draft depends on the time of contact, and the number of bits that this time may have depends on the
-    // draft. So the draft is made for a nearby time with few bits.
+    // draft. So the draft is made for a time with few bits that is near the time of contact.
     const double near = time_of(random, levels.when(), fewest_bits);
     const Draft draft = draft_of(random, kind, levels, near);
     const auto weight = weights(random, kind, levels.where());

@@ -44,9 +44,9 @@ struct Motion {
 };
 
 constexpr double rounded_to = 1e-6;
-/// Motions found by random search. If h is at most 1.09 times the smallest distance (1.22 times for the first
-/// four motions), Algorithm 2 of the paper (vertex_edge.hpp) finds the vertex within h of the edge at none of
-/// its candidate times except those of case 2, the minima of pieces.
+/// Motions found by random search. Let h be at most 1.09 times the smallest distance (1.22 times for the
+/// first four motions). Among the candidate times of the paper's Algorithm 2 (vertex_edge.hpp), only those of
+/// case 2, the minima of pieces, then have the vertex within h of the edge.
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},
@@ -133,7 +133,8 @@ Query along_the_line(Random& random, Kind kind, double x) {
 }
 
 /// At some time, the edge shrinks to a point, and the vertex is then at its smallest distance from the edge.
-/// The vertex moves at right angles to the edge and to the shortest line from the vertex to the edge.
+/// Relative to the middle of the edge, the vertex moves at right angles to the edge and to the line from this
+/// middle to the vertex at that time.
 Query shrinking(Random& random, Kind kind, double x) {
   const double t = random.integer(1, 15) / 16.0;
   const Vector direction = random.vector(8);

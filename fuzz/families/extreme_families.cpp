@@ -29,8 +29,8 @@ Query stiff(Random& random, Kind kind, double x) {
 }
 
 /// One of the sides q and r is shorter than the other. In half of the queries, the contact is near the
-/// triangle's corner x1 (vertex-triangle) or near an end of the long edge (edge-edge), at most about the
-/// length of the short side away.
+/// triangle's corner x1 (vertex-triangle) or near an end of the long edge (edge-edge); its distance from
+/// there is at most about the length of the short side.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -174,8 +174,8 @@ Query needle(Random& random, Kind kind, double x) {
 }
 
 /// Both primitives turn as one rigid body between t = 0 and t = 1, except that each vertex moves in a
-/// straight line. So the body is mapped affinely at every time, and points of it that coincide stay together;
-/// only the relative motion `apart` separates the primitives.
+/// straight line. So at every time, one affine map takes both primitives from their places at t = 0, and
+/// points that coincide would stay together. Only the relative motion `apart` separates the primitives.
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };

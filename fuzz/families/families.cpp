@@ -35,7 +35,7 @@ const Parameter& parameter_of(const Family& family) {
   return *family.parameter;
 }
 
-/// Draws a separation, as parse_family_separation() says.
+/// Draws a separation from the range that the comment on parse_family_separation() gives.
 double draw_separation(Random& random, const Query& query) {
   constexpr double least_digits = -6;
   const double factor = std::pow(10, random.uniform(least_digits, 0));

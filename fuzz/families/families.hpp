@@ -79,13 +79,13 @@ std::span<const Family> families();
 /// The families of vertex-triangle and edge-edge queries that have separations of their own.
 std::span<const Family> separation_families();
 
-/// The families of vertex-vertex and vertex-edge queries. Most queries are those of another family without
-/// their last vertices: "v-uniform" takes its queries from "uniform". Such primitives touch only by
-/// coincidence, so campaigns give the queries separations.
+/// The families of vertex-vertex and vertex-edge queries. Most of these families take the queries of another
+/// family, and leave out the last vertices: "v-uniform" takes its queries from "uniform". Such primitives
+/// touch only by coincidence, so campaigns give the queries separations.
 std::span<const Family> vertex_families();
 
-/// The family as campaigns use it by default: vertex-vertex and vertex-edge queries draw separations, unless
-/// the family has its own.
+/// The family that campaigns use by default. It is `family`, except that vertex-vertex and vertex-edge
+/// queries draw separations if `family` has no separations of its own.
 Family as_asked(const Family& family);
 
 /// families() and separation_families(): all families of vertex-triangle and edge-edge queries.

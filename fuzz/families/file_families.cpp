@@ -43,8 +43,8 @@ Query floats(Random& random, Kind kind) {
   return query;
 }
 
-/// Decimals with x digits behind the point, rounded to the nearest doubles. In half of the queries,
-/// primitives with the decimal coordinates touch exactly; after rounding, they touch or are a few ulps apart.
+/// Decimals with x digits behind the point, rounded to the nearest doubles. In half of the queries, the
+/// primitives touch exactly before the decimals are rounded; after that, they touch or are a few ulps apart.
 Query decimals(Random& random, Kind kind, double x) {
   const int unit = static_cast<int>(std::lround(std::pow(10.0, x)));
   Query query{.kind = kind};
@@ -85,8 +85,8 @@ Query kilometres(Random& random, Kind kind) {
   return moved(query, random.vector(scene));
 }
 
-// The values of the factors of `metres`: lengths of edges and sizes of scenes in metres, motions in lengths
-// of an edge.
+// The values of the factors of `metres`. Lengths of edges and sizes of scenes are in metres, motions in
+// lengths of an edge.
 constexpr std::array edges{1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array steps{1e-4, 1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array scenes{1.0, 10.0, 100.0};
@@ -110,7 +110,7 @@ std::vector<std::string> factors_of_metres(Random& random) {
           fmt::format("scene={}", of.scene)};
 }
 
-/// everyday() primitives of size 1 and speed 1e-4 to 1.
+/// A query of everyday() with size 1 and a speed from 1e-4 to 1.
 Query everyday_of_size_1(Random& random, Kind kind) {
   const double speed = power_of_ten(random.uniform(-4, 0));
   return everyday(random, kind, 1, speed);

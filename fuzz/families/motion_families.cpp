@@ -1,5 +1,5 @@
-// Families with exact contact: at t = 0 or t = 1, just after t = 0, of primitives at rest, and at two times.
-// x is the family's parameter, F the coplanarity cubic.
+// Families of primitives that touch exactly: at t = 0 or t = 1, just after t = 0, at rest, or at two times. x
+// is the family's parameter, F the coplanarity cubic.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,10 +20,10 @@ Vector wide_vector(Random& random, int bits) {
   return v.array().floor();
 }
 
-/// Primitives at rest that touch exactly; half of the queries touch at a vertex. There, rounding errors
-/// matter most: both weights are at the ends of their ranges, so no neighbouring point of the primitives
-/// makes up for an error. Coordinates are multiples of 1/16 below 2^48, so they use nearly all bits of a
-/// double.
+/// Primitives at rest that touch exactly; half of the queries touch at a vertex. At a vertex, rounding errors
+/// matter most: both weights are at the ends of their ranges, so if an error moves the vertex away, no
+/// neighbouring point touches in its place. Coordinates are multiples of 1/16 below 2^48, so they use nearly
+/// all bits of a double.
 Query touching_at_rest(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
   contact.base = still(wide_vector(random, 46));
@@ -36,11 +36,11 @@ Query touching_at_rest(Random& random, Kind kind) {
   return meet(kind, contact, Vector::Zero());
 }
 
-/// Primitives of size 10^x that touch exactly at t = 1. They come from up to 1,024 times their size away, and
-/// change their shape on the way. The difference of start and end has more bits than a double. A CCD that
-/// computes positions at t = 1 from this difference misses the contact unless it allows for rounding errors.
-/// In three queries of four, both primitives are flat along an axis at all times, like a garment that falls
-/// onto a floor.
+/// Primitives of size 10^x that touch exactly at t = 1. They start up to 1,024 times their size away from
+/// there, and change their shape on the way. The difference between the positions at t = 0 and at t = 1 has
+/// more bits than a double. A CCD that computes positions at t = 1 from this difference misses the contact
+/// unless it allows for rounding errors. In three queries of four, both primitives are flat along an axis at
+/// all times, like a garment that falls onto a floor.
 Query far_end(Random& random, Kind kind, double x) {
   const double size = power_of_ten(x);
   Query query = touching_at_rest(random, kind);

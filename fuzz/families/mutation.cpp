@@ -186,8 +186,8 @@ Query edge_shrunk(Random& random, const Query& query) {
   return result;
 }
 
-/// A velocity: zero, that of a vertex, or a sum of multiples of one or two vectors that go from one vertex to
-/// others.
+/// A velocity: zero; the velocity of a vertex; a multiple of the vector from one vertex to another; or the
+/// sum of two such multiples with the same first vertex.
 Vector aligned_velocity(Random& random, const Query& query) {
   const int base = random.integer(0, 3);
   switch (random.integer(0, 3)) {

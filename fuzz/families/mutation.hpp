@@ -13,9 +13,9 @@ namespace nearmiss {
 /// never changes. The result is finite if `query` is.
 Query mutated(Random& random, const Query& query);
 
-/// Combines two queries. One of them gives the coordinates of some vertices, along some axes, at one end of
-/// the step, or some single coordinates; the other query gives all other coordinates. The kind and the
-/// separation are each taken from one of the two.
+/// Combines two queries. For each vertex, for each axis, for each end of the step, or for each single
+/// coordinate, draws the query that gives the coordinates. The kind and the separation each come from one of
+/// the two queries.
 Query crossed(Random& random, const Query& first, const Query& second);
 
 }  // namespace nearmiss

@@ -144,8 +144,8 @@ Differences differences(const Query& query) {
 constexpr std::size_t none = 3;  ///< stands for no axis
 
 /// The sum of the magnitudes of the products in F. Each product has three factors: a difference along each
-/// axis. If an axis is left out: the sum of the magnitudes of the products in W's component along that axis.
-/// Each of these products has two factors.
+/// axis. If an axis is left out, returns the sum of the magnitudes of the products in W's component along
+/// that axis; each of these products has two factors.
 double sum_of_products(const Query& query, std::size_t left_out) {
   const Differences d = differences(query);
   double sum = 0;
@@ -173,7 +173,7 @@ void fill_binade(Query& query, std::size_t axis, double sum) {
 
 /// Scales the coordinates along the axes that are not left out, so that the sum of products is in [2^x, 2^(x
 /// + 1)), unless it is zero. If `spread` is 0, the exponents of the axes' factors differ by at most 1;
-/// otherwise, they differ by random numbers of about this size.
+/// otherwise, they differ by random numbers of about the size of `spread`.
 void scale_products(Random& random, Query& query, std::size_t left_out, int x, int spread) {
   const double sum = sum_of_products(query, left_out);
   int exponent = x;

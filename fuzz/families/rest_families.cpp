@@ -10,8 +10,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Primitives of about size 1, and a point on each, often on a border. The vector `gap` goes from the second
-/// primitive's point to the first one's; half of these vectors are along q × r.
+/// Primitives of about size 1, and a point on each primitive, often on its border. The vector `gap` goes from
+/// the second primitive's point to the first one's; half of these vectors are along q × r.
 struct Draft {
   Contact contact;
   Vector gap;
@@ -27,7 +27,7 @@ struct Draft {
     if (random.one_in(2)) gap = length * contact.q.start.cross(contact.r.start);
   }
 
-  /// The query, with the drawn primitives at a random place.
+  /// The query of the drawn primitives, moved to a random place.
   [[nodiscard]] Query query(Random& random, Kind kind) const {
     Contact at = contact;
     at.base = still(random.vector(1));

@@ -1,6 +1,6 @@
-// Contact whose time is hard to find: roots of F, the coplanarity cubic, that are close together, a root at
-// which the primitives only touch, an easily missed contact that precedes an obvious contact, and slow
-// motion. Contact is exact. x is the family's parameter.
+// Exact contact whose time is hard to find: roots of the coplanarity cubic F that are close together; a root
+// at which the primitives only touch; an easily missed contact before an obvious contact; and slow motion. x
+// is the family's parameter.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,8 +47,8 @@ struct PlannedRoot {
 
 double determinant(const Vector& a, const Vector& b, const Vector& c) { return a.dot(b.cross(c)); }
 
-/// Whether the directions of the three roots are linearly independent, and their vectors Weights::column()
-/// are, too. Otherwise, F would be 0 at all times.
+/// Whether the three roots have linearly independent directions, and also linearly independent vectors
+/// Weights::column(). Otherwise, F would be 0 at all times.
 bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots) {
   const auto& [a, b, c] = roots;
   return determinant(a.direction, b.direction, c.direction) != 0 &&
@@ -119,8 +119,8 @@ Query with_drawn_roots(Random& random, Kind kind, const Path& base, const Draw& 
   return rescaled(random, query);
 }
 
-/// Two or three roots of F; neighbouring roots are 1 to 3 times 2^x apart. At some of these roots, the points
-/// that coincide are outside the primitives.
+/// Two or three roots of F; neighbouring roots are 1 to 3 times 2^x apart. At one root or more, the points
+/// that coincide are inside the primitives; at the other roots, they are outside.
 Query close_roots(Random& random, Kind kind, double x) {
   const double gap = power_of_two(x);
   const bool has_third = !random.one_in(3);
@@ -232,8 +232,8 @@ Graze graze_face(Random& random, Kind kind, double time) {
 /// A vertex and an edge touch in the plane z = 0, in which everything moves. The edge turns about the point
 /// of contact, from the direction of x towards y, and the vertex passes this point along x, on one side of
 /// the edge. The fourth vertex is placed so that the primitives are apart at all other times: it is the
-/// triangle's third vertex (vertex-triangle), or the other end of the edge that touches with its end
-/// (edge-edge).
+/// triangle's third vertex (vertex-triangle), or the other end of the edge that the touching vertex belongs
+/// to (edge-edge).
 Graze graze_edge(Random& random, Kind kind, double time) {
   const int length = random.integer(1, 4);
   const double turn = random_sign(random) * random.integer(1, 4);
@@ -254,8 +254,8 @@ Graze graze_edge(Random& random, Kind kind, double time) {
   return {contact, speed * Vector::UnitX(), side * Vector::UnitY()};
 }
 
-/// In half of the queries, the primitives touch at one time. In the other half, the first primitive of such a
-/// query is moved by about 2^x, towards the second primitive or away from it.
+/// In half of the queries, the primitives touch at one time. The other half are made in the same way, but
+/// then the first primitive is moved by about 2^x, towards the second primitive or away from it.
 Query touch_once(Random& random, Kind kind, double x) {
   const double time = sixteenths(random, 1, 15);
   auto [contact, w, inward] =

@@ -14,7 +14,7 @@ namespace nearmiss {
 CalledDetector::CalledDetector(const nearmiss_subject& detector, void* state, bool at_once)
     : DescribedSubject(Detector(detector, state).info()), detector_(detector, state), at_once_(at_once) {}
 
-/// The number of the text of the exception that is being handled (fault_texts.hpp).
+/// The number that `texts_` gives to the text of the current exception.
 std::int32_t CalledDetector::number_of_exception() const {
   make_arithmetic_plain();
   try {

@@ -141,7 +141,8 @@ std::vector<Finding> in_order(const Campaign& campaign) {
   return findings;
 }
 
-/// Shrinks only the first finding of each way to fail, for at most three ways, so that a test ends soon.
+/// Shrinks the first finding of each way to fail, for at most three ways. Leaves all other findings as they
+/// are, so that a test ends soon.
 void shrink_first(Campaign& campaign, const Subjects& subjects, const Stop& stop) {
   constexpr std::size_t most = 3;
   constexpr ShrinkLimits limits{.work = limits_in_campaign.work, .time = std::chrono::seconds(2)};

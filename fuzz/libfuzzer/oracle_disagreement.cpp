@@ -14,8 +14,8 @@ const Target target{};
 
 namespace {
 
-/// Whether the filter gives the same stage with all instruction sets of this machine, and does not contradict
-/// the exact answer `collision`.
+/// Whether the filter ends at the same stage with every instruction set of this machine, and does not
+/// contradict the exact answer `collision`.
 bool filter_agrees(const Query& query, bool collision) {
   const std::span<const Query> queries(&query, 1);
   const auto contradicts = [&](FilterStage stage) {

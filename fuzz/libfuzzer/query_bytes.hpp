@@ -15,7 +15,8 @@ namespace nearmiss::libfuzzer {
 /// memory.
 inline constexpr std::size_t contact_bytes = 1 + sizeof(Query::x);
 
-/// The number of bytes of an input that has a positive separation after the coordinates. No input has more.
+/// The number of bytes of an input that has a positive separation after the coordinates. No input has more
+/// bytes.
 inline constexpr std::size_t query_bytes = contact_bytes + sizeof(Query::separation);
 
 /// The query in an input; nothing if the input's size is wrong, a number is not finite, or the separation is

@@ -43,7 +43,7 @@ enum class Signal {
 /// query has values of its own.
 void show(Signal signal, Kind kind, std::size_t value);
 
-/// Shows libFuzzer how near `factor`, a number below 1, is to 1, as the number of a step. The steps become
+/// Shows libFuzzer how near `factor`, a number below 1, is to 1: the number of a step on a scale that becomes
 /// finer towards 1. NaN shows nothing.
 void show_factor(Signal signal, Kind kind, double factor);
 

@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// Goes through the lines of a text that contain a word, and splits each line into words at blanks. A byte
-/// order mark at the beginning is skipped. The text must outlive this object.
+/// Goes through a text line by line, skips lines without a word, and splits the other lines into words at
+/// blanks. A byte order mark at the beginning is skipped. The text must outlive this object.
 class Lines {
  public:
   enum class Comments { none, hash };  ///< hash: a comment goes from '#' to the end of the line
@@ -36,7 +36,8 @@ class Lines {
   /// The text after this line.
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
-  /// The number of this line, from 1; that of its first part, if this line continues in the next ones.
+  /// The number of this line in the text, from 1. If this line continues in the next lines of the text, the
+  /// number of its first part.
   [[nodiscard]] long number() const { return number_; }
 
   /// "NAME:LINE", for messages.
@@ -47,7 +48,8 @@ class Lines {
   [[nodiscard]] Error error(std::string_view found, std::string_view expected) const;
 
  private:
-  /// Adds the words of the next line of the text to this line. Returns whether this line continues.
+  /// Adds the words of the next line of the text to this line. Returns whether this line continues in another
+  /// line of the text.
   bool take_line();
 
   std::string_view rest_;

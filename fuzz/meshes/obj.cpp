@@ -36,8 +36,8 @@ Vector3<double> coordinates(const Lines& lines) {
   return {parse_number(words[1], where), parse_number(words[2], where), parse_number(words[3], where)};
 }
 
-/// Adds the vertices of a face or polyline, numbered from 0, to a list. `points` is the number of points that
-/// are defined before this line.
+/// Adds the indices of a face's or polyline's vertices to a list; the indices count from 0. `points` is the
+/// number of points that are defined before this line.
 void add_vertices(const Lines& lines, bool is_face, long points, std::vector<long>& list) {
   const auto& words = lines.words();
   const std::size_t least = is_face ? 3 : 2;

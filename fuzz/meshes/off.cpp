@@ -53,7 +53,7 @@ MeshSize read_size(Lines& lines, std::string_view name) {
   return {vertices, parse_count(counts[1], largest_int, "a number of faces", lines)};
 }
 
-/// The words of the next line, which has the vertex or face `index` of `count`.
+/// The words of the next line, which must have a vertex or a face: number `index`, from 0, of `count`.
 Words next_line(Lines& lines, std::string_view what, int index, int count) {
   if (!lines.next())
     throw lines.error("the end of the file", fmt::format("{} {} of {}", what, index + 1, count));

@@ -215,7 +215,7 @@ class TextNumbers {
   Lines& lines_;
 };
 
-/// The numbers after the header, as bytes. The functions are those of TextNumbers.
+/// The numbers after the header, as bytes. This class has the same functions as TextNumbers.
 class BinaryNumbers {
  public:
   BinaryNumbers(std::string_view bytes, Encoding encoding, std::string_view name)

@@ -84,7 +84,7 @@ double DistanceError::over_by_size() const { return std::min(quotient(over, size
 double DistanceError::under_by_size() const { return std::min(quotient(under, size), 1.0); }
 
 double over_limit(const Query& query, double distance) {
-  // nextafter, because dividing by 1.01 does not change the smallest doubles.
+  // nextafter lowers the smallest doubles, which a division by 1.01 does not change.
   return std::min({distance / (1 + DistanceError::part_of_distance),
                    distance - DistanceError::part_of_size * size_of(query), std::nextafter(distance, 0)});
 }
@@ -184,7 +184,7 @@ std::string DistanceQuestion::signature(const Subject& subject, const Judged& ju
 
 namespace {
 
-/// The query of a point of the search space, with its vertices at rest where they are at t = 0.
+/// The query that belongs to a point of the search space. All its vertices rest at their positions at t = 0.
 Query query_at_rest(Kind kind, SearchPoint point) {
   point.q.end = point.q.start;
   point.r.end = point.r.start;

@@ -21,7 +21,7 @@
 
 namespace nearmiss {
 
-/// The query's primitives at rest, where they are at t = 0, without a separation.
+/// The query without its separation, and with its primitives at rest at their positions at t = 0.
 Query at_rest(const Query& query);
 
 /// How a subject's answer compares with the exact distance d of a query at rest.
@@ -55,22 +55,22 @@ DistanceError error_of(const Query& query, const DistanceAnswer& answer);
 /// negative. The answer is over-reported if the result is positive and at least the exact distance.
 double over_limit(const Query& query, double distance);
 
-/// DistanceError::over_reported for the answer `distance`, in less time than error_of(). The query must be at
-/// rest, and rounded as the subject rounds it.
+/// Whether the answer `distance` is over-reported (DistanceError::over_reported). Takes less time than
+/// error_of(). The query must be at rest, and rounded as the subject rounds it.
 bool is_over_reported(const Query& query, double distance);
 
-/// The parameter of QuestionTrial for the question how far apart primitives are.
+/// The template argument of QuestionTrial for the question how far apart two primitives at rest are.
 struct DistanceQuestion {
   struct Judged {
     Query query;  ///< at rest, as the subject rounds it
     DistanceAnswer answer;
     DistanceError error = {};  ///< set if there is no fault
 
-    /// "over-reported", "wrong-weights" or "fault"
+    /// "over-reported", "wrong-weights" or "fault"; nothing if the subject does not fail.
     [[nodiscard]] std::optional<std::string_view> failure() const;
     [[nodiscard]] bool is_unsafe() const { return error.over_reported; }
     [[nodiscard]] bool is_counted_by_class() const { return failure().has_value() || error.under_reported; }
-    /// The failure, "under-reported" or "right".
+    /// The failure, if there is one; otherwise, "under-reported" or "right".
     [[nodiscard]] std::string_view word() const;
     [[nodiscard]] std::string answer_text() const;
     [[nodiscard]] std::string text() const;

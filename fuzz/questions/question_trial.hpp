@@ -76,7 +76,7 @@ struct QuestionPlan {
   int jobs = 1;
 };
 
-/// The time after the time limit in which findings may be shrunk.
+/// How long findings may still be shrunk after the time limit has passed.
 inline constexpr std::chrono::seconds question_grace(5);
 
 /// Puts subjects on trial: in each round, asks them about some queries of every family. Shrinks the findings
@@ -216,7 +216,8 @@ class QuestionTrial {
     work.results.findings.push_back(std::move(finding));
   }
 
-  /// Adds results, but no finding whose failure, subject, signature and class are those of an earlier one.
+  /// Adds results. Leaves out each finding that has the failure, subject, signature and class of an earlier
+  /// finding.
   void take(Results&& results) {
     for (const auto& [key, each] : results.counts) asked_ += each.queries;
     std::erase_if(results.findings, [&](const QuestionFinding& each) {
@@ -277,8 +278,8 @@ std::uint64_t sum_that_counts(const QueryClassCounts& counts);
 std::vector<Family> search_families(std::string name, std::string about,
                                     std::function<Query(Random&, Kind)> make);
 
-/// The families among which a user can choose: those of campaigns, and before them, with `at_rest`, the
-/// families at rest.
+/// The families among which a user can choose: the families of campaigns. If `at_rest` is true, the families
+/// at rest come first.
 std::vector<Family> families_of_questions(bool at_rest);
 /// The families that are asked by default: families_of_questions() without the extreme families, in which
 /// even careful functions overflow.

@@ -1,4 +1,5 @@
-// The question which part of a step is safe. Filters of steps answer it. StepQuestion judges their answers.
+// The question which part of a step is safe. Subjects that filter steps answer this question, and
+// StepQuestion judges their answers.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +20,8 @@
 
 namespace nearmiss {
 
-/// The parameter of QuestionTrial for the question which part of a step is safe. Only primitives that are
-/// apart at t = 0 are asked about.
+/// The template argument of QuestionTrial for the question which part of a step is safe. Only primitives that
+/// are apart at t = 0 are asked about.
 struct StepQuestion {
   struct Judged {
     Query query;  ///< without a separation, as the subject rounds it
@@ -37,7 +38,7 @@ struct StepQuestion {
     bool cuts_free = false;  ///< the filter changes the original step, although that step has no contact
     bool objects = false;    ///< the subject would change the filtered step again
 
-    /// "unsafe" or "fault"
+    /// "unsafe" or "fault"; nothing if the subject does not fail.
     [[nodiscard]] std::optional<std::string_view> failure() const;
     [[nodiscard]] bool is_unsafe() const { return touches; }
     [[nodiscard]] bool is_counted_by_class() const { return failure().has_value(); }
@@ -77,13 +78,13 @@ struct StepQuestion {
   /// Asks about a query's step. Returns nothing if the primitives touch at t = 0, the query breaks the
   /// subject's contract, or the subject is not asked any more.
   static std::optional<Judged> ask(const Subject& subject, const Query& query);
-  /// If the filtered step makes contact, the features of the first contact. If the primitives only come
-  /// nearer than the clearance, the features that first reach the clearance. If the subject gave no answer,
-  /// the sort of fault.
+  /// If the filtered step makes contact, returns the features of the first contact. If the primitives only
+  /// come nearer than the clearance, returns the features that first reach the clearance. If the subject gave
+  /// no answer, returns the sort of fault.
   static std::string signature(const Subject& subject, const Judged& judged);
-  /// The families "search-step-NAME" and "v-search-step-NAME": each query is the result of a search for the
-  /// filtered step that comes nearest to contact, or to the clearance, relative to the size of the
-  /// primitives. An unsafe step or a fault ends a search.
+  /// The families "search-step-NAME" and "v-search-step-NAME": each query is the result of a search. The
+  /// search looks for the query whose filtered step comes nearest to contact, or to the clearance, relative
+  /// to the size of the primitives. An unsafe step or a fault ends a search.
   static std::vector<Family> searches(const Subject& subject, const Stop& stop);
 };
 

@@ -58,8 +58,8 @@ class CandidatePasser {
 
 // --- by a hierarchy of boxes ----------------------------------------------------------------------------
 
-/// Vertices (or edges) of consecutive rows (pair_rows), which are near each other, and their partners: the
-/// triangles (or edges) near them.
+/// The vertices (or edges) of consecutive rows (pair_rows) that are near each other, and their partners: the
+/// triangles (or edges) near these vertices (or edges).
 class Block {
  public:
   /// Begins the block with row `first`. The block ends before row `end`, after 16 rows, or before the box
@@ -79,8 +79,7 @@ class Block {
     return first_ + rows_.size();
   }
 
-  /// Collects the partners near the block that have the number `least` or a larger one, in the order of the
-  /// numbers.
+  /// Collects the partners near the block whose numbers are at least `least`, in the order of their numbers.
   void collect(const CellTree& tree, const PrimitiveBoxes& partners, std::int32_t least) {
     numbers_.clear();
     tree.find(bounds_, least, [&](std::int32_t number) { numbers_.push_back(number); });

@@ -36,11 +36,11 @@ class Grid {
   explicit Grid(const MovingMesh& mesh) {
     if (mesh.start.empty()) return;
     std::tie(lo_, hi_) = bounds(mesh);
-    // Computed with halves, since a sum or difference may overflow.
+    // Halves the bounds first, since their sum or difference may overflow.
     centre_ = lo_ / 2 + hi_ / 2;
     const double half = (hi_ / 2 - lo_ / 2).maxCoeff();
     constexpr double cells = 1 << 30;
-    // For a mesh smaller than about 1e-299, the cells are as small as possible without overflow.
+    // For a mesh smaller than about 1e-299, `cells / half` overflows, and the largest double replaces it.
     if (half > 0) per_unit_ = std::min(cells / half, std::numeric_limits<double>::max());
   }
 
@@ -59,7 +59,7 @@ class Grid {
 
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs) {
   const Grid grid(mesh);
-  // boxes_meet() rounds. Even so, twice this margin exceeds every distance that boxes_meet() accepts.
+  // boxes_meet() rounds the distances that it compares, but accepts no distance above twice this margin.
   const double half = mesh.separation > 0 ? above(mesh.separation / 2) : 0;
   std::vector<CellBox> boxes(mesh.start.size());
   constexpr std::size_t chunk = 1 << 13;

@@ -56,7 +56,7 @@ class CellBoxGroup {
     std::memcpy(&made, &places, sizeof made);
     return made;
   }
-  /// One bit per place: whether for_meeting visits it.
+  /// Returns one bit for each place: whether for_meeting visits the place.
   [[nodiscard]] unsigned meeting(const CellBox& box, std::int32_t least) const {
     Vector apart = vector(numbers_) < least;
     for (std::size_t k = 0; k < 3; ++k) apart |= (vector(lo_[k]) > box.hi[k]) | (vector(hi_[k]) < box.lo[k]);
@@ -68,19 +68,20 @@ class CellBoxGroup {
   Places numbers_;
 };
 
-/// A tree of groups: the lowest level groups primitives' boxes that are near each other, the next level
-/// groups the bounds of these groups, and so on. The groups are chosen at the first step of a mesh. Later
-/// steps move the boxes and keep the groups, until the groups' bounds have become much larger.
+/// A tree of groups. A group of the lowest level has boxes of primitives that are near each other. A group of
+/// the next level has the bounds of such groups, and so on. The groups are chosen at the first step of a
+/// mesh. Later steps move the boxes and keep the groups, until the groups' bounds have become much larger.
 class CellTree {
  public:
   /// Throws Stopped when `is_over` returns true.
   CellTree(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
-  /// Goes on to `boxes`, those of another step of the same scene. Throws Stopped when `is_over` returns true.
+  /// Moves the tree to `boxes`, the primitives' boxes in another step of the same scene. Throws Stopped when
+  /// `is_over` returns true.
   void move(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
-  /// The median size of the bounds of the lowest level's groups. If there are many groups, the median over a
-  /// sample of them.
+  /// The median size of the groups of the lowest level; the size of a group is that of its bounds. If there
+  /// are many groups, the median is that of a sample of them.
   [[nodiscard]] std::int64_t typical_group() const;
 
   /// Calls visit(number) for each box that meets `box` and whose number is at least `least`.
@@ -105,8 +106,8 @@ class CellTree {
   }
 
   void choose_groups(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
-  /// Computes the boxes of all levels. Returns, for each level, the sum of the sizes of the level's boxes,
-  /// divided by that sum for level 0, which has the primitives' boxes.
+  /// Computes the boxes of all levels. Returns a ratio for each level: the sum of the sizes of the level's
+  /// boxes, divided by the sum of the sizes of the primitives' boxes (level 0).
   std::vector<double> update(const PrimitiveBoxes& boxes, int jobs);
 
   std::size_t count_;

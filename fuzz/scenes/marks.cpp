@@ -48,7 +48,7 @@ class ShownPoints {
         lo_ = lo_.cwiseMin(p);
         hi_ = hi_.cwiseMax(p);
       }
-    // Computed with halves, since a difference may overflow.
+    // Halves the bounds first, since their difference may overflow.
     scale_ = (hi_ / 2 - lo_ / 2).maxCoeff();
   }
 
@@ -186,7 +186,7 @@ void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
       primitives.add(Vertices(e.begin(), e.end()), mark_of_primitive(edges_, e));
 }
 
-/// Adds the points that have a mark or are in no primitive.
+/// Adds the points that have a mark, or are in no edge and no triangle.
 void Marks::add_points(const MovingMesh& mesh, Primitives& primitives) const {
   std::vector<bool> in_primitive(mesh.start.size());
   for (const auto& t : mesh.triangles)

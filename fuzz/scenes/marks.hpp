@@ -28,7 +28,7 @@ class Marks {
   /// The number of marked primitives.
   [[nodiscard]] std::size_t size() const { return triangles_.size() + edges_.size() + points_.size(); }
 
-  /// The number of primitives of pairs that some subject misses.
+  /// The number of primitives that belong to a pair that some subject misses.
   [[nodiscard]] std::size_t missed() const;
 
   /// The picture of a step; `subjects` has the names of the subjects. Triangles also show the marks of their

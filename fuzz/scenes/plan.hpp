@@ -56,13 +56,13 @@ class Plan {
 
   /// Passes on the pairs of a part. `ask` receives the pairs that a subject must decide, at most 1,000 at a
   /// time. `decided`, if given, receives the pairs that the plan decides without a subject. Stores no pairs.
-  /// Pairs whose boxes do not meet are in no part. Calls `is_over` now and then; if `is_over` returns true,
-  /// returns early or throws Stopped.
+  /// Pairs whose boxes do not meet are in no part, except under LeaveOut::nothing. Calls `is_over` now and
+  /// then; if `is_over` returns true, returns early or throws Stopped.
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
                  const IsOver& is_over) const;
 
-  /// The counts of the pairs that are in no part, because their boxes do not meet, and the time to make the
-  /// parts. `parts` is the sum of the counts of all parts.
+  /// Counts the pairs whose boxes do not meet, which are in no part. Also has the time to make the parts.
+  /// `parts` is the sum of what follow() returned for all parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:

@@ -23,15 +23,15 @@ namespace fs = std::filesystem;
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-/// Removes a number from the front of a text and returns it without leading zeros.
+/// Removes the digits at the front of a text, and returns them without leading zeros.
 std::string_view cut_number(std::string_view& text) {
   const std::string_view all = text.substr(0, std::min(text.find_first_not_of("0123456789"), text.size()));
   text.remove_prefix(all.size());
   return all.substr(std::min(all.find_first_not_of('0'), all.size()));
 }
 
-/// Whether a name comes before another name. Numbers are compared by their values, everything else by
-/// characters.
+/// Whether name a comes before name b. Numbers in the names are compared by their values, and all other
+/// characters one by one.
 bool comes_before(std::string_view a, std::string_view b) {
   const std::string_view whole_a = a;
   const std::string_view whole_b = b;
@@ -75,7 +75,7 @@ std::string folder_name(const fs::path& folder) {
   return printable((fs::absolute(folder) / "").lexically_normal().parent_path().filename().string());
 }
 
-/// For each point, the first point in the same place.
+/// Returns, for each point, the index of the first point in the same place.
 std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& points) {
   std::map<std::array<double, 3>, std::size_t> places;  // 0 and -0 are equal here
   std::vector<std::size_t> first;
@@ -84,9 +84,9 @@ std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& poin
   return first;
 }
 
-/// The points of a frame, without those that were merged at frame 0: of several points in one place there,
-/// only the one with the lowest index is kept. Throws Error if a merged point is no longer in the same place
-/// as the one that is kept.
+/// The points of a frame that remain after points are merged. If several points are in one place at frame 0,
+/// only the point with the lowest index is kept. Throws Error if another of these points is no longer in the
+/// place of the kept point.
 std::vector<Vector3<double>> kept_points(const std::vector<Vector3<double>>& points,
                                          const std::vector<std::size_t>& first, const std::string& where) {
   std::vector<Vector3<double>> kept;

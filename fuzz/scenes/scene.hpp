@@ -51,10 +51,10 @@ Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::
 /// than two mesh files, or if the files' endings differ, since it is then unclear which files are the frames.
 Scene scene_of_folder(const std::filesystem::path& folder);
 
-/// The scene in which points that coincide at frame 0 (0 and -0 are equal) are merged. Files repeat points at
-/// seams. Without merging, triangles on the two sides of a seam would have no common vertex, and be tested
-/// for collision. After merging, a triangle may have a vertex twice. For a frame in which merged points are
-/// apart, the result's `points` throws Error.
+/// The scene in which points that coincide at frame 0 (0 and -0 are equal) are merged. Mesh files repeat
+/// points at seams. Without merging, triangles on the two sides of a seam would have no common vertex, and be
+/// tested for collision. After merging, a triangle may have a vertex twice. For a frame in which merged
+/// points are apart, the result's `points` throws Error.
 Scene welded(Scene scene);
 
 }  // namespace nearmiss

@@ -39,8 +39,8 @@ struct Fingerprint {
   bool operator==(const Fingerprint&) const = default;
 };
 
-/// Asks the oracle and the subjects about those of `pairs` that a plan leaves out. Adds those of `pairs`
-/// whose boxes meet to `meeting`.
+/// Asks the oracle and the subjects about those of `pairs` that a plan leaves out. Adds to `meeting` those of
+/// `pairs` whose boxes meet.
 Verification verify(const AskedPairs& pairs, const Subjects& subjects, Fingerprint& meeting) {
   std::vector<Query> queries;
   std::vector<bool> expected;

@@ -48,7 +48,7 @@ class Maximiser {
   /// long. The size of steps grows after an improvement, and shrinks after a step that does not improve the
   /// point.
   void move_vertices();
-  /// Draws one displacement along some axes, and applies it to one or several of the eight positions (four
+  /// Draws a step: one displacement along some axes, for one or several of the eight positions (four
   /// vertices, at t = 0 and t = 1).
   Displacements draw_step(double size);
   /// Takes the step if it improves the best point, and returns whether it does.

@@ -61,16 +61,16 @@ class Searched {
 
 // --- misses and far false positives ---------------------------------------------------------------------
 
-/// The distance that a subject's false positives may have: the bound that the subject claims, or wang's bound
-/// if the subject claims none.
+/// How far apart the primitives of a subject's false positive may be: the bound that the subject claims, or
+/// wang's bound if the subject claims none.
 double reach(const Subject& subject, const Query& query) {
   const double claimed = subject.distance_bound(query);
   return std::isfinite(claimed) && claimed > 0 ? claimed : make_subject("wang")->distance_bound(query);
 }
 
-/// The smallest size of primitives in a search. It is smaller than usual if reach() is small, except for vv
-/// and ve queries, for which reach() is a distance minus the separation h, and may be small for every
-/// subject.
+/// The smallest size of primitives in a search. It is smaller than usual if reach() is small. For vv and ve
+/// queries, it is always the usual size, because reach() is a distance minus the separation h there, and may
+/// be small for every subject.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   if (!is_of_meshes(kind)) return usually_smallest;
   const SearchPoint typical = draw_search_point(random, usually_smallest);
@@ -177,8 +177,8 @@ struct GivenTime {
   double time;
   EarliestTime& earliest;
 
-  /// The difference time - t*, where t* has the accuracy `rough_time`, or `least` if `rough_time` does not
-  /// show which of the two times is earlier.
+  /// The difference time - t*. It uses an enclosure of t* with the accuracy `rough_time`; if this does not
+  /// show which of the two times is earlier, it uses one with the accuracy `least`.
   [[nodiscard]] double difference() const {
     Enclosure known = earliest.enclosure(rough_time);
     if (known.lo <= time && time <= known.hi) known = earliest.enclosure(least);
@@ -189,8 +189,8 @@ struct GivenTime {
 };
 
 /// The value of a time for SearchFor::late. A late time (EarliestTime::makes_late) has a larger value than
-/// every other time. The value of a late time grows with time - t*; any other time has a larger value, the
-/// smaller (t* - time) / t* is.
+/// every other time. Among late times, the value grows with time - t*. Among all other times, the value grows
+/// as (t* - time) / t* shrinks.
 double lateness(const GivenTime& given) {
   constexpr double late = 200;
   const double least = GivenTime::least;

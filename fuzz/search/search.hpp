@@ -14,7 +14,7 @@ namespace nearmiss {
 /// To return one query, a search asks the subject about at most this many queries.
 inline constexpr int search_evaluations = 2000;
 
-/// The aims of directed searches. A search gives one query to the family of its aim: the best that it found.
+/// The aims of directed searches. A search gives the best query that it found to the family of its aim.
 enum class SearchFor {
   /// "search-miss-NAME": a collision that the subject misses; if the search found none, the collision that
   /// came nearest to being missed.
@@ -23,10 +23,10 @@ enum class SearchFor {
   /// bound if the subject claims none. A false positive that refutes the bound ends the search. If a search
   /// finds none, it returns a query that is no false positive.
   far,
-  /// "search-late-NAME", for a subject that gives times: the collision with the latest time, compared with
-  /// t*, the exact earliest time. If the search found a time after t*, it returns the query with the largest
-  /// time - t*; otherwise, the query with the smallest (t* - time) / t*. The search skips misses, and up to
-  /// 20 queries over the time limit.
+  /// "search-late-NAME", for a subject that gives times: the collision for which the subject's time is
+  /// latest, compared with t*, the exact earliest time. If the search found a time after t*, it returns the
+  /// query with the largest time - t*; otherwise, the query with the smallest (t* - time) / t*. The search
+  /// skips misses, and up to 20 queries over the time limit.
   late,
   early,  ///< "search-early-NAME": as `late`, but the collision with the largest t* - time
 };

@@ -1,5 +1,5 @@
-// The search space of directed search: contacts, with a gap between the primitives and displacements of
-// vertices, from which queries are made.
+// The search space of directed search. Each point makes a query from a contact, a gap between the primitives,
+// and displacements of the vertices.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace nearmiss {
 /// How far each vertex is moved, in the order of Query::x.
 using Displacements = std::array<double, 24>;
 
-/// A contact whose Contact::base is at rest at the origin, a gap between the primitives, and displacements
-/// that are then added to the vertices.
+/// A contact, a gap between the primitives, and displacements that are added to the vertices at the end. The
+/// contact's Contact::base is at rest at the origin.
 struct SearchPoint {
   Path q, r;
   Vector3<double> w;      ///< velocity of the first primitive's point of contact
@@ -41,7 +41,7 @@ SearchPoint draw_search_point(Random& random, double smallest);
 /// Rounds a point to a grid on which contact is exact.
 SearchPoint on_grid(SearchPoint point);
 
-/// A gap whose components are uniform in [-h, h), for every finite h.
+/// Draws a gap whose components are uniform in [-h, h). Every finite h is allowed.
 Vector3<double> draw_gap(Random& random, double h);
 
 SearchPoint with_gap_within(SearchPoint point, double h);

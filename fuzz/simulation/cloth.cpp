@@ -14,7 +14,7 @@ namespace nearmiss {
 
 namespace {
 
-/// For each edge of the triangles, the vertices opposite the edge; for each point on lines, its neighbours.
+/// Maps each edge of a triangle to the vertices opposite the edge, and each point on lines to its neighbours.
 struct Opposites {
   std::map<std::array<int, 2>, std::vector<int>> of_edge;
   std::map<int, std::vector<int>> on_lines;

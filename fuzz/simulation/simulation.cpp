@@ -9,7 +9,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The largest energy that results report, 100 kJ, even if a simulation explodes.
+/// Even if a simulation explodes, its results report at most this energy, 100 kJ.
 constexpr double most_picojoules = 1e17;
 
 constexpr int impulse_rounds = 10;  ///< rounds of impulses, before those of impact zones

@@ -29,8 +29,8 @@ struct SimulationOptions {
 SimulationOptions parse_simulation_name(std::string_view name);
 
 /// Finds a family by its name, as find_family does. If the name is that of a simulation
-/// (SimulationOptions::name), with or without ~SEPARATION at the end, makes a family. For this, simulates the
-/// scene with the oracle as the CCD, and keeps a sample of the pairs about which the CCD is asked. Throws
+/// (SimulationOptions::name), with or without ~SEPARATION at the end, makes the family. To make it, simulates
+/// the scene with the oracle as the CCD, and keeps a sample of the pairs about which the CCD is asked. Throws
 /// Error for an unknown name or an invalid option, and Stopped if the stop is due before the simulation ends.
 Family find_any_family(std::string_view name, const Stop& stop = Stop::never(),
                        std::span<const Family> known = all_families());

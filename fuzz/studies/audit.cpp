@@ -33,7 +33,7 @@ constexpr std::string_view inside = "weight_error, ccd/wang/ve_culling.hpp";
 constexpr std::string_view spread = "spread_error, ccd/wang/ve_culling.hpp";
 constexpr std::string_view culling = "weight_error + spread_error, ccd/wang/ve_culling.hpp";
 
-// Rounding errors of the barycentric tests in units of ε, as Theorem 4.1 of the paper bounds them.
+// The bounds that Theorem 4.1 of the paper gives for the rounding errors of the barycentric tests, in B⁴ε.
 constexpr double inside_vt = 564;
 constexpr double inside_ee = 360;
 constexpr double inside_ee_far = 540;  // if components of p, the relative position, are up to 2B
@@ -129,8 +129,8 @@ std::vector<RoundingConstant> rounding_consequences() {
       {"EE: distance of a false positive, far p", "4.5.1", line, 1448, 4 * inside_ee_far,
        4 * proven::inside_ee_far, beyond},
       {"distance bound", "4.4.1", "B eps^1/4", 41, std::sqrt(34.0 * 34 + 522)},
-      // A weight is linear in the relative position p, so within the time h (not a separation), it changes by
-      // at most ‖N‖ ‖edge‖ √3 B h. Here, ‖N‖ <= 3B² and ‖edge‖ <= √3 B.
+      // A weight is linear in the relative position p, so it changes by at most ‖N‖ ‖edge‖ √3 B h in a time
+      // interval of length h (which is no separation). Here, ‖N‖ <= 3B² and ‖edge‖ <= √3 B.
       {"VE culling: spread of a weight", "5", "B^4 h", 9, 3 * 3},
       {"critical points", "node_error, ccd/wang/ve_culling.hpp", b3, node_error, 3 * 18, none,
        "derived in ccd/wang/cubic.hpp"},

@@ -19,8 +19,9 @@ struct RoundingConstant {
   std::string_view unit;
   double quoted = none;  ///< as the paper states it; for a constant of ours, its value
 
-  /// For a bound: the first-order bound that Theorem 4.1 gives for the operations in ccd/ on exact vectors.
-  /// For a consequence (rounding_consequences): the value that follows from other rows.
+  /// For a bound (rounding_bounds): the first-order bound that Theorem 4.1 gives for the operations in ccd/
+  /// if the vectors have no rounding errors. For a consequence (rounding_consequences): the value that
+  /// follows from other rows.
   double derived = none;
   /// The bound that Gappa proves for rounding to nearest, including the rounding of the vectors
   /// (ccd/wang/bounds/proven.hpp).

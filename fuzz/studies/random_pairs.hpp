@@ -21,9 +21,9 @@ struct RandomPairs {
   }
 };
 
-/// Counts the first queries of the given kind in the family `uniform`, with all velocities multiplied by
-/// `speed`. Vertices start in a unit cube, and have velocities in ±speed along each axis. Throws Stopped when
-/// `stop` is due.
+/// Counts the first `queries` queries of this kind in the family `uniform`, after multiplying all velocities
+/// by `speed`. Vertices start in a unit cube, and have velocities in ±speed along each axis. Throws Stopped
+/// when `stop` is due.
 RandomPairs count_random_pairs(Kind kind, double speed, std::uint64_t queries, std::uint64_t seed,
                                const Stop& stop);
 

@@ -24,7 +24,7 @@ namespace {
 using std::chrono::steady_clock;
 
 /// A group of tests with which wang accepts queries. `subject` names the CCD that measures the group: wang
-/// without the tests that accept pairs farther apart than this group does.
+/// without the groups of tests that accept pairs at larger distances.
 struct Tests {
   std::string_view name, subject;
 };

@@ -13,7 +13,7 @@
 
 namespace nearmiss {
 
-/// What to measure, among which queries, and how long.
+/// The plan of a measurement: what is measured, among which queries, and for how long.
 struct TightnessPlan {
   std::vector<std::string> names;        ///< some of `tightness_names(among_vertices)`
   std::vector<Family> families;          ///< sources of queries in addition to directed search
@@ -34,8 +34,8 @@ using TightnessSink = std::function<void(const Extreme&, bool done)>;
 /// families. Directed search finds the other half: collisions that need the tolerance to be nearly as large
 /// as it is. Each collision gives a factor: if the tolerance is multiplied by less than this factor (by more,
 /// if the tolerance excludes degenerate primitives), the subject misses the collision. For a group of tests,
-/// wang runs without the tests that accept pairs farther apart than this group does, and the distances of
-/// wang's false positives are measured. Throws Error for an unknown name.
+/// wang runs without the groups that accept pairs at larger distances, and the distances of its false
+/// positives are measured. Throws Error for an unknown name.
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

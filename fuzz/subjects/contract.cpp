@@ -22,9 +22,9 @@ bool is_apart_at_start(const Query& query, double by) {
   return distance_exceeds(at_rest, std::max(by, query.separation));
 }
 
-/// Whether the Bernstein coefficients of F, the volume of the vertices, exceed their rounding errors, and
-/// change sign at most once. If so, F has at most one root in [0, 1], counted with multiplicity: none at t =
-/// 0 or t = 1, and in between at most as many as there are changes of sign.
+/// Whether each Bernstein coefficient of F, the volume of the vertices, is larger in magnitude than its
+/// rounding error can be, and the coefficients change sign at most once. If so, F has no root at t = 0 or t =
+/// 1, and at most one root in between, counted with multiplicity.
 bool surely_has_at_most_one_root(const Query& query) {
   const auto whole = certified::whole_step<double>(coordinates(query));
   const auto F = certified::coplanarity(whole.a, whole.b, whole.c);
@@ -43,7 +43,7 @@ bool has_at_most_one_root(const Query& query) {
   return roots.empty() || (roots.size() == 1 && roots.front().sign_of(F.derivative()) != 0);
 }
 
-/// Whether all coordinates are multiples of `grid`. Exact, because fmod is exact.
+/// Whether all coordinates are multiples of `grid`. The result is exact, because fmod is exact.
 bool is_on_grid(const Query& query, double grid) {
   return std::all_of(query.x.begin(), query.x.end(), [&](double c) { return std::fmod(c, grid) == 0; });
 }

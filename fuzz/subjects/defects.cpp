@@ -45,8 +45,9 @@ struct DefectiveTolerances {
   Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if any
 
-  /// These tolerances, with the changed tolerance loosened by the factor s. If no tolerance is changed,
-  /// loosens all that accept more pairs when larger: lengths by s, squares of lengths by s², and so on.
+  /// These tolerances, but with the changed tolerance loosened by the factor s. If no tolerance is changed,
+  /// those that accept more pairs when they are larger are loosened: lengths by s, squares of lengths by s²,
+  /// and so on.
   [[nodiscard]] DefectiveTolerances loosened(double s) const {
     DefectiveTolerances loose = *this;
     if (changed != nullptr) {

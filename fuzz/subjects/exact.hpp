@@ -13,9 +13,9 @@ namespace nearmiss {
 
 /// The subjects `exact`, `exact-scalar` and `exact-decision`: the certified filter, then exact arithmetic for
 /// queries that the filter leaves undecided. `exact` and `exact-decision` decide many queries without a
-/// separation in parallel lanes; `exact-scalar` decides them one at a time. As the time of a collision,
-/// `exact` and `exact-scalar` give the largest double that is not after its earliest time; `exact-decision`
-/// gives none. All three claim to have no false positives, so their distance bound is 0.
+/// separation in parallel lanes; `exact-scalar` decides them one at a time. `exact` and `exact-scalar` give
+/// the time of a collision: the largest double that is not after the collision's earliest time.
+/// `exact-decision` gives no time. All three claim to have no false positives, so their distance bound is 0.
 std::span<const SubjectInfo> exact_subjects();
 
 /// The kinds of queries that a campaign asks by default: the kinds that at least one subject other than the

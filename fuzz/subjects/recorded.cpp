@@ -39,7 +39,7 @@ bool is_exact(const Recorded& each) {
   return true;
 }
 
-/// Whether the decision about the query that ends at tmax is the same before and after rounding.
+/// Whether the query that ends at tmax has the same decision with exact positions and with rounded ones.
 bool is_same_decision(const Recorded& each) {
   auto earliest = earliest_time(each.query);
   return earliest_time(each.asked()).has_value() == (earliest && earliest->enclosure().hi <= each.tmax);

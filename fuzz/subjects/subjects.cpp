@@ -22,7 +22,7 @@ namespace {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// The plug-in that `subject`, a text without NAME=, names; nothing if `subject` names no plug-in.
+/// The plug-in that the text `subject` (without NAME=) names; nothing if it names no plug-in.
 std::optional<std::string> plugin_of(std::string_view subject) {
   return is_plugin(subject) ? std::string(subject) : plugin_of_peer(subject);
 }
@@ -48,9 +48,9 @@ std::string file_of_program(std::string_view program) {
   return files.empty() ? "" : files.back();
 }
 
-/// Makes a name from a plug-in's file: FILE, or FILE.DETECTOR if the detector was chosen. If that cannot be a
-/// NAME, or is a built-in name, makes DETECTOR-FILE. Returns "" if there is no file, or if neither name can
-/// be used.
+/// Makes a name from a plug-in's file: FILE, or FILE.DETECTOR if the detector was chosen. If this text cannot
+/// be a NAME, or is a built-in name, makes DETECTOR-FILE. Returns "" if there is no file, or if neither name
+/// can be used.
 std::string name_of_file(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   if (!plugin) return "";

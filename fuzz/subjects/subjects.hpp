@@ -20,7 +20,7 @@ namespace nearmiss {
 std::optional<std::string> plugin_named(std::string_view text);
 
 /// Makes the subject of a text [NAME=]SUBJECT, and gives it the NAME if there is one. The subject is a
-/// built-in subject (as make_built_in), or a plug-in (plugin_named), which runs in processes of its own
+/// built-in subject (make_built_in()) or a plug-in (plugin_named()), which runs in processes of its own
 /// (isolation/) under `limits`. Throws Error for an unknown subject, and for a shared object with several
 /// detectors if the text does not choose one.
 std::unique_ptr<Subject> make_any_subject(std::string_view text,
@@ -33,7 +33,7 @@ std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});
 
-/// Whether a name, apart from options and a bound, is that of a built-in subject or a published CCD.
+/// Whether a name belongs to a built-in subject, with or without options and a bound, or to a published CCD.
 bool is_built_in_name(std::string_view name);
 
 /// Renames plug-ins with equal names, such as versions of one CCD, and plug-ins with a built-in name. Each of

@@ -74,7 +74,7 @@ CaseBlock block_of(const CampaignPlan& plan, std::uint64_t round, std::size_t f)
   return {&plan.families[f], first, last};
 }
 
-/// The number of a shard's cases of family f, if the campaign has an end.
+/// The number of cases of family f in a shard. The campaign must have an end.
 std::uint64_t cases_of_shard(const CampaignPlan& plan, std::size_t f) {
   const Rounds rounds(plan);
   std::uint64_t sum = 0;

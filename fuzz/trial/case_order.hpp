@@ -31,10 +31,11 @@ struct CaseBlock {
 /// The cases of one kind in a block. Throws Stopped when `stop` is due.
 Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, const Stop& stop);
 
-/// The number of cases in a plan's shard; in a campaign without end, plan.first.
+/// The number of cases in a plan's shard. For a campaign without end, returns plan.first.
 std::uint64_t cases_of_shard(const CampaignPlan& plan);
 
-/// In a campaign without shards: the number of cases up to and including query `index` of a family.
+/// The number of cases, in the order of a campaign without shards, up to and including query `index` of a
+/// family.
 std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index);
 
 /// The cases of a plan's shard, in order. The plan must outlive this object.

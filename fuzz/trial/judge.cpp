@@ -17,9 +17,9 @@ BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ :
 
 namespace {
 
-/// The difference between a time and t*, the exact earliest time. `magnitude` is an upper bound of its
-/// magnitude that falls into the right bin of a Histogram. Outside the first bin, it has a relative accuracy
-/// of 1/1000. `sign` is 0 if the time certainly is t*.
+/// The difference between a time and t*, the exact earliest time. `magnitude` is an upper bound of the
+/// difference's exact magnitude, and in the same bin of a Histogram. Outside the first bin, it has a relative
+/// accuracy of 1/1000. `sign` is 0 if the time certainly is t*.
 struct TimeDifference {
   double magnitude;
   int sign;

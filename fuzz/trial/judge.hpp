@@ -34,12 +34,12 @@ class Judge {
 
   /// Compares an answer with the truth about the query. If the subject rounds coordinates, `truth` must be
   /// about the rounded query. If the smallest distance is exactly the separation h > 0, any answer is right,
-  /// and a reported pair counts as a collision. A subject that claims bounds must give a number >= 0 for a
-  /// false positive; anything else is a fault. The answer "cannot tell" claims nothing about the distance.
-  /// For a false positive, Outcome::ratio is the smallest distance, minus h, in the unit of ask_unit(). It is
-  /// accurate to 1/1000 if a finding stores it, or if it is at least `least_kept` (Known). The ratio is 0 if
-  /// the unit is infinite, since no distance is larger. `known` is the answer of ask_unit(), if the caller
-  /// has it already.
+  /// and the query counts as a collision if the answer is one. A subject that claims bounds must give a
+  /// number >= 0 for a false positive; anything else is a fault. The answer "cannot tell" claims nothing
+  /// about the distance. For a false positive, Outcome::ratio is the smallest distance, minus h, in the unit
+  /// of ask_unit(). It is accurate to 1/1000 if a finding stores it, or if it is at least `least_kept`
+  /// (Known). The ratio is 0 if the unit is infinite, since no distance is larger. `known` is the answer of
+  /// ask_unit(), if the caller has it already.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0,
                               const std::optional<BoundAnswer>& known = {}) const;
 
@@ -54,8 +54,8 @@ class Judge {
 
  private:
   /// The outcome of an answer, and the unit in which to measure the distance of a false positive. The outcome
-  /// does not contain this distance. The distance needs to be measured only if needs_unit() holds and the
-  /// unit is finite.
+  /// does not contain this distance. There is a unit only if the distance must be measured: if needs_unit()
+  /// holds, and ask_unit() gives a finite unit.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(
       const Verdict& verdict, Truth& truth, const std::optional<BoundAnswer>& known = {}) const;
   /// The error of a true positive's time of impact; nothing if the subject gives no time.
@@ -66,7 +66,7 @@ class Judge {
 };
 
 /// The failure that an outcome shows (reports/statistics/failure.hpp). Returns nothing if the outcome shows
-/// no failure, or a failure of which no finding is made.
+/// no failure, or a failure that makes no finding.
 std::optional<Failure> failure_of(const Outcome& outcome, Truth& truth);
 
 /// How the oracle's methods disagree about a query; nothing if they agree.

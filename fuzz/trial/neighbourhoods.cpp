@@ -52,9 +52,10 @@ void exchange(Numbers& x, std::size_t v, std::size_t w) {
     std::swap_ranges(start + 3 * v, start + 3 * v + 3, start + 3 * w);
 }
 
-/// Scales all axes together, or each axis by itself, so that the largest magnitude is in [2^exponent,
-/// 2^(exponent + 1)), and rounds to integers. The separation is scaled only together with all axes, and
-/// becomes at least 1 if it is positive, because h = 0 would ask another question.
+/// Scales all numbers together, or the coordinates along each axis by themselves, so that their largest
+/// magnitude is in [2^exponent, 2^(exponent + 1)), and rounds them to integers. The separation is scaled only
+/// together with all coordinates, and becomes at least 1 if it is positive, because h = 0 would ask another
+/// question.
 void round(Numbers& x, int exponent, bool each_axis) {
   const bool has_separation = x[separation] != 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -165,9 +166,9 @@ Neighbourhood change_times(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Divides all numbers, those along an axis, those of a vertex, or those of a vertex along an axis. The
-/// divisor is -1, 3, 5, the magnitude of one of the divided numbers, or a power of two between 1 and such a
-/// magnitude.
+/// Divides some numbers of the query: all, those along an axis, those of a vertex, or those of a vertex along
+/// an axis. The divisor is -1, 3, 5, the magnitude of one of the divided numbers, or a power of two between 1
+/// and such a magnitude.
 Neighbourhood scale(const Numbers& numbers) {
   std::vector<Set> sets{everything};
   for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));

@@ -19,8 +19,8 @@ using Alternatives = std::vector<Change>;
 /// The shrinker tries the entries of a neighbourhood one after the other.
 using Neighbourhood = std::vector<Alternatives>;
 
-/// Functions that each make one neighbourhood of a query from its present numbers. The shrinker tries the
-/// neighbourhoods in this order.
+/// Returns functions, each of which makes a neighbourhood of a query from the query's present numbers. The
+/// shrinker calls the functions in this order.
 std::vector<std::function<Neighbourhood(const Numbers&)>> neighbourhoods(Kind kind);
 
 }  // namespace nearmiss

@@ -53,8 +53,8 @@ class Shrinker {
     return query;
   }
 
-  /// Takes, in their order, the changes that make the query simpler and leave it failing. Asks about many
-  /// changes in a batch; if no query of a batch fails, the next batch is larger.
+  /// Tries the changes in their order, and takes each one that makes the query simpler and leaves it failing.
+  /// Asks about many changes in a batch; if no query of a batch fails, the next batch is larger.
   void explore(const Neighbourhood& changes) {
     constexpr std::size_t largest_batch = 64;
     std::size_t size = 1;
@@ -89,7 +89,7 @@ class Shrinker {
     return batch;
   }
 
-  /// Whether a candidate is simpler than the best query so far. Notes the candidate's complexity. If two
+  /// Whether a candidate is simpler than the best query so far. Sets the candidate's complexity. If two
   /// queries are equally complex, the query whose numbers come first in lexicographic order counts as
   /// simpler, so that no step undoes another step.
   bool is_simpler(Candidate& candidate) const {

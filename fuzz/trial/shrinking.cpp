@@ -11,7 +11,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The largest part of all processors' time that shrinking takes while queries are being asked.
+/// While queries are being asked, shrinking takes at most this part of all processors' time.
 constexpr double share = 0.1;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Shrinks the queries of findings (recorded failures) while a trial goes on, so that no query of the trial
-// waits.
+// Shrinks the queries of findings (recorded failures) while a trial goes on. No query of the trial waits for
+// this.
 #pragma once
 
 #include <chrono>

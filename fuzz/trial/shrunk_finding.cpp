@@ -97,8 +97,8 @@ class Limited final : public ForwardingSubject {
   std::atomic<bool>& has_been_slow_;
 };
 
-/// Whether an answer can be a failure of this kind. A hit can be a fault, too: a false positive for which the
-/// subject gives an invalid bound.
+/// Whether an answer can be a failure of this kind. A reported collision can be a fault, too, namely a false
+/// positive for which the subject gives an invalid bound.
 bool can_be(Finding::What what, const Verdict& verdict) {
   const bool is_fault = verdict.fault != Fault::none;
   switch (what) {
@@ -127,7 +127,8 @@ class SameFailure {
   /// object.
   void only_since(const Subject& before) { before_.emplace(before); }
 
-  /// The first query that fails. Asks all queries at once or, if each may end a process, a few at a time.
+  /// The first query that fails. Asks about all queries at once or, if each query may end a process, about a
+  /// few at a time.
   std::optional<std::size_t> operator()(std::span<const Query> queries) const {
     const std::size_t at_once = failure_.what == Finding::What::fault ? 4 : queries.size();
     for (std::size_t first = 0; first < queries.size(); first += at_once) {
@@ -230,8 +231,7 @@ class FindingShrinker::OfSubject {
     return *known;
   }
 
-  /// Replaces what the subject gave for the original query with what it gives for the shrunk query, if it
-  /// gives anything.
+  /// Replaces a value that belongs to the original query by the value for the shrunk query, if there is one.
   static void set(double& number, double of_shrunk) {
     if (!std::isnan(of_shrunk)) number = of_shrunk;
   }

@@ -21,8 +21,8 @@ struct ShrinkLimits {
   static constexpr std::int64_t of_call = 10;       ///< the work of a call, in addition to its queries
   static constexpr std::int64_t of_process = 1000;  ///< the work of a fault that may end the process
 
-  /// The work of all queries, calls and ended processes together; a query has the work 1. This limit does not
-  /// depend on time, so it ends the search at the same query on every machine.
+  /// The limit on the work of all queries, calls and ended processes together. A query has the work 1. The
+  /// limit does not depend on time, so it ends the search at the same query on every machine.
   std::int64_t work = 1'200'000;
   /// The time limit for all answers together. Only a slow subject reaches it.
   std::chrono::milliseconds time = std::chrono::minutes(1);
@@ -30,7 +30,7 @@ struct ShrinkLimits {
 
 /// Limits for a campaign, whose subjects should spend their time on cases. A search reaches the time limit
 /// before the limit of work only if its answers take more than about 0.1 ms each (1 ms in calls for one
-/// query), or the start of a process more than 100 ms.
+/// query), or if the start of a process takes more than 100 ms.
 inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(12)};
 
 /// Shrinks findings of some subjects. Many threads may use a FindingShrinker at once.

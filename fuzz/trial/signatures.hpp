@@ -24,7 +24,7 @@ std::string report_signature(Kind kind, Stage stage);
 /// time", "vt invalid time NaN" or "vt exception no root in [#, #]". `text` is what an exception said; its
 /// numbers become #, so that exceptions that differ only in numbers have one signature.
 std::string fault_signature(Kind kind, const Verdict& verdict, std::string_view text = {});
-/// The signature of a subject's fault, given by its sort and its code.
+/// The signature of a subject's fault, from the sort and the code of the fault.
 std::string fault_signature(const Subject& subject, Kind kind, Fault fault, std::int32_t code);
 
 /// Whether a signature is that of a collision with a time that is NaN or outside [0, 1].

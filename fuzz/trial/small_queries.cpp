@@ -69,7 +69,7 @@ bool is_listed(const Integers& x, const Symmetry& symmetry) {
   return true;
 }
 
-/// Whether no symmetric copy of x that the list may contain comes before x.
+/// Whether no symmetric copy comes before x. Copies that the list cannot contain do not count.
 bool is_first_copy(const Integers& x, const std::vector<Symmetry>& symmetries) {
   return std::none_of(symmetries.begin(), symmetries.end(), [&](const Symmetry& symmetry) {
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -103,9 +103,9 @@ class Maker {
     list_.push_back({query, complexity(query)});
   }
 
-  /// Adds the queries whose paths before `path` are those in `x_`, and whose other paths have at most
-  /// `numbers` nonzero numbers (Complexity::numbers). A path is one coordinate of a vertex, at t = 0 and t =
-  /// 1. Adds only the first of several symmetric copies.
+  /// Adds the queries whose paths before `path` are those in `x_`, and whose other paths together have at
+  /// most `numbers` nonzero numbers (Complexity::numbers). A path is one coordinate of a vertex, at t = 0 and
+  /// t = 1. Adds only the first of several symmetric copies.
   void extend(std::size_t path, int numbers) {
     if (path == paths) {
       if (is_first_copy(x_, symmetries_)) add();

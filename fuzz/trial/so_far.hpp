@@ -24,9 +24,8 @@ inline bool is_set_aside(const Counts& counts) { return counts.without_answer(Fa
 struct Known {
   std::uint64_t slow = 0;  ///< the number of queries over the time limit
 
-  /// A false positive whose distance in the unit of Judge::ask_unit() is at least this
-  /// (Truth::Distance::ratio) is kept as one of the farthest. The distance of any other false positive need
-  /// not be precise.
+  /// A false positive is kept as one of the farthest if its distance, in the unit of Judge::ask_unit(), is at
+  /// least this (Truth::Distance::ratio). The distance of any other false positive need not be precise.
   double least_kept = 0;
 
   [[nodiscard]] bool is_set_aside() const { return slow >= most_slow; }

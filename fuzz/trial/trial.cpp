@@ -71,7 +71,7 @@ std::vector<std::optional<BoundAnswer>> bounds_of(const Subject& subject, const 
   return all;
 }
 
-/// For each query, whether the filter decides it near the filter's error bounds.
+/// For each query, whether the filter's decision is near its error bounds (Comparison::caution).
 std::vector<bool> near_bounds(const Batch& batch, const std::vector<Decision>& decisions) {
   std::vector<FilterStage> cautious(batch.queries.size());
   filter_with_caution(batch.queries, Comparison::caution, cautious);
@@ -316,8 +316,8 @@ class Judging {
   VersionComparison versions_;
 };
 
-/// Checks all coordinates. This also fetches the queries from memory, so that no subject's time includes
-/// this.
+/// Checks all coordinates. This also fetches the queries from memory, so that no subject's time includes the
+/// fetching.
 void check_coordinates(const Batch& batch) {
   for (std::size_t i = 0; i < batch.queries.size(); ++i)
     if (!is_finite(batch.queries[i]))

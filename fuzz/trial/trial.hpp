@@ -18,7 +18,7 @@ namespace nearmiss {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// The subjects must outlive the pointers.
+/// The subjects must outlive the returned pointers.
 inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
   std::vector<const Subject*> pointers;
   for (const auto& subject : subjects) pointers.push_back(subject.get());
@@ -74,8 +74,8 @@ using TrialSink = std::function<void(TrialResult&&)>;
 struct Comparison {
   /// Queries that the filter leaves undecided are sampled this many times as often as others.
   static constexpr std::uint64_t more_of_undecided = 64;
-  /// A query counts as decided near the filter's bounds if the filter would leave it undecided with all error
-  /// bounds multiplied by this factor.
+  /// A query counts as decided near the filter's bounds if the filter, in double and with all error bounds
+  /// multiplied by this factor, would not decide it in the same stage.
   static constexpr double caution = 16;
 
   std::uint64_t one_in = 4096;  ///< compares one query in this many, chosen by its number; at least 1
@@ -94,9 +94,9 @@ struct Comparison {
 /// Puts the subjects on trial over a batch: times each subject over the whole batch, separately from the
 /// oracle, and judges the answers (`Judge`). A subject that rounds coordinates is judged on the rounded
 /// query, which is also the query that is kept. `known` is empty, or says for each subject what earlier
-/// queries have shown (so_far.hpp). A subject that is set aside is not asked; if it exceeds its time limit
-/// too often in this batch, its later answers in the batch do not count. Throws Error for a coordinate that
-/// is not finite.
+/// queries have shown (so_far.hpp). A subject that is set aside is not asked. If a subject exceeds its time
+/// limit too often in this batch, its later answers in the batch do not count. Throws Error for a coordinate
+/// that is not finite.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {},
                        std::vector<Known> known = {});
 

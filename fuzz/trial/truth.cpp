@@ -78,7 +78,7 @@ Truth::Distance Truth::measured_distance(double unit) const {
   const bool is_contact = query_.separation == 0;
   const Enclosure ratio = is_contact ? distance_in_units(query_, unit, Histogram::lower_border)
                                      : distance_beyond_separation(query_, unit, Histogram::lower_border);
-  // For contact, the enclosure usually decides whether the ratio of the distance to the unit is above 1.
+  // If h = 0, the enclosure usually shows whether the distance is above the unit.
   const bool beyond = is_contact && ratio.hi <= 1 ? false : is_contact && ratio.lo > 1 ? true : exceeds(unit);
   return {std::min(ratio.hi, beyond ? most : 1.0), beyond};
 }

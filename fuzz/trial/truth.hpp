@@ -26,8 +26,8 @@ class Truth {
 
   [[nodiscard]] Answers ask_methods() const;
 
-  /// Whether t*, the earliest time at which the distance is at most the separation, exists: for a collision
-  /// or a tie.
+  /// Whether there is a t*, the earliest time at which the distance is at most the separation: a collision
+  /// and a tie have one.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
   /// Returns the signature of a disagreement, or "" if the methods agree. They disagree if `answers` differ
@@ -42,7 +42,7 @@ class Truth {
 
   QueryClass query_class();
 
-  /// The earliest time at which the distance is at most h, for a collision or a tie.
+  /// The earliest time at which the distance is at most h. The query must be a collision or a tie.
   EarliestTime& time();
   /// The largest speed of a vertex of one primitive relative to a vertex of the other primitive, divided by
   /// B, the size of the pair (pair_bound). The result is rounded.
@@ -57,8 +57,8 @@ class Truth {
   /// Returns Distance::exceeds for this unit, without computing the ratio.
   [[nodiscard]] bool exceeds(double unit) const;
 
-  /// Improves `ratio`, which is that of distance(unit), to an accuracy of 1/1000. A ratio in the first bin of
-  /// a Histogram is returned unchanged.
+  /// Returns the ratio of distance(unit) with a relative accuracy of 1/1000. `ratio` must be what
+  /// distance(unit) gave; if it is in the first bin of a Histogram, it is returned unchanged.
   [[nodiscard]] double precise_ratio(double unit, double ratio) const;
 
  private:

@@ -11,10 +11,10 @@
 
 namespace nearmiss {
 
-/// For each subject, the index of the earlier version: the first subject whose plug-in exports the same name,
-/// if that is another subject. A subject that is asked beyond its contract is compared only with a subject
-/// that is also asked beyond its contract. `chosen` is empty, or has the names of two subjects: the second is
-/// then compared with the first.
+/// For each subject, the index of the earlier version: the first subject whose plug-in exports the same name.
+/// Nothing if this is the subject itself. A subject that is asked beyond its contract is compared only with a
+/// subject that is also asked beyond its contract. `chosen` is empty, or has the names of two subjects: the
+/// second is then compared with the first.
 std::vector<std::optional<std::size_t>> predecessors(const Subjects& subjects,
                                                      const std::vector<std::string>& chosen);
 
@@ -33,7 +33,7 @@ class VersionComparison {
   /// of the earlier version (`broken_since`). The next query then becomes the present one.
   void finish_query(std::vector<Finding>& findings);
 
-  /// Adds the counters of all queries, which are of this kind and family, to a table. Versions without a
+  /// Adds the counters of all queries to a table. The queries are of this kind and family. Versions without a
   /// common query get counters of 0.
   void add_to(VersionTable& table, Kind kind, const std::string& family) const;
 
@@ -52,8 +52,9 @@ class VersionComparison {
   std::vector<VersionCounts> counts_;               // by subject
 };
 
-/// Whether a subject's contract admits a query, and the subject answers the query rightly. A version of a CCD
-/// breaks a query if this version fails on the query, and the previous version answers it rightly.
+/// Whether a subject answers a query rightly. A subject whose contract excludes the query does not answer it
+/// rightly. A version of a CCD breaks a query if this version fails on the query, and the previous version
+/// answers it rightly.
 class AnswersRightly {
  public:
   /// The subject must outlive this object.

@@ -18,7 +18,7 @@ class Answers {
 
   [[nodiscard]] std::span<const Answer> all() const { return answers_; }
 
-  /// Whether there is a collision, by the first method whose claim is `complete`.
+  /// Whether there is a collision, according to the first method whose claim is `complete`.
   [[nodiscard]] bool collision() const;
 
   /// Whether no two methods contradict each other, and every complete method says whether there is a

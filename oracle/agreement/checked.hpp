@@ -22,8 +22,9 @@ certificates::Statement statement_about(const Query& query, std::string_view cla
 std::optional<certificates::Statement> proved(const std::optional<std::string>& certificate);
 
 /// Whether certificates prove a decision. No certificate can prove that the smallest distance is exactly
-/// h > 0 if it is reached only at an irrational time. So for every tie, certificates need only prove that the
-/// smallest distance is above the largest double below h, and at most the smallest double above h.
+/// h > 0 if this distance is reached only at an irrational time. So for every tie, certificates need only
+/// prove that the smallest distance is above the largest double below h, and at most the smallest double
+/// above h.
 bool is_proved(const Query& query, const Decision& decision);
 
 /// Checks whether certificates prove the narrowest enclosure of the earliest time of a query with a collision

@@ -12,8 +12,8 @@
 
 namespace nearmiss {
 
-/// A method's answers to questions about a query. A member without a value is a question that the method
-/// leaves open.
+/// A method's answers to questions about a query. A member without a value stands for a question that the
+/// method leaves open.
 struct Answer {
   std::optional<bool>
       collision{};  ///< whether the primitives meet; for h > 0, whether the distance falls below h
@@ -33,7 +33,7 @@ enum class Claim {
 };
 
 Answer to_answer(const Query& query, const Decision& decision);
-/// A decision as the answer of the filter; an empty answer if exact arithmetic decided.
+/// The filter's answer, taken from a decision; an empty answer if exact arithmetic decided.
 Answer filter_answer(const Query& query, const Decision& decision);
 
 /// The answer that the certificate of the oracle's decision proves; an empty one if there is no certificate,

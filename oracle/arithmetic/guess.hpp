@@ -8,7 +8,7 @@
 
 namespace nearmiss::certified {
 
-/// Lanes have a function `select`, too.
+/// Does for doubles what the function `select` for lanes does for each lane.
 inline double select(bool mask, double a, double b) { return mask ? a : b; }
 
 /// c[0] + c[1] t + c[2] t² + c[3] t³.

@@ -3,7 +3,7 @@
 // (tools/certificates/README.md gives its formulas). A direction that separates at a time also separates for
 // a while, and the span [from, to] is compact. So the search, which cuts the span into parts, comes to an end
 // unless the smallest distance is exactly the separation. Near a time at which the closest features change,
-// parts may have to be very short. Cuts approach such a time as fast as root finding does.
+// parts may have to be very short. The cuts approach such a time as fast as a root finder approaches a root.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -125,8 +125,8 @@ class Separator {
     }
   }
 
-  /// Rounds the normals for which find() tried no rounded versions, if they still separate when they are
-  /// rounded.
+  /// Rounds each normal for which find() tried no rounded versions, unless every rounded version fails to
+  /// separate.
   void round(bool open) {
     for (Piece& piece : pieces_)
       for (const int bits : certificates::roundings) {
@@ -211,8 +211,8 @@ class Separator {
     return nullptr;
   }
 
-  /// The only root of an obstacle in a part or, if the obstacle has none or several there, that of the first
-  /// of its derivatives with only one. This is a time at which the obstacle changes its sign or has an
+  /// The root of an obstacle in a part, if it has exactly one there; otherwise the root of the lowest
+  /// derivative that has exactly one there. This is a time at which the obstacle changes its sign or has an
   /// extremum, or the centre of several such times. Roots at the ends of the part do not count.
   [[nodiscard]] static std::optional<Root> time_of_change(const Polynomial& obstacle, const Interval& in) {
     Polynomial p = without_root(without_root(obstacle, in.lo), in.hi);
@@ -244,8 +244,8 @@ class Separator {
     return take_normal({Combination::interiors}, part, open);
   }
 
-  /// Tries the normal of these features and, up to the depth `deep`, its rounded versions, with the sign that
-  /// is needed in the middle of the part.
+  /// Tries the normal of these features, or its opposite if only that can separate in the middle of the part.
+  /// Up to the depth `deep`, also tries rounded versions.
   bool take_normal(const ClosestFeatures& features, const Part& part, bool open) {
     const std::array key{static_cast<std::size_t>(features.combination), features.vertex, features.from,
                          features.to};

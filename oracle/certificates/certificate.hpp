@@ -42,7 +42,7 @@ using Certificates = std::vector<std::optional<std::string>>;
 
 /// Proofs of the narrowest enclosure [lo, hi] of the earliest time: that the distance is above h in [0, lo),
 /// unless lo is 0, and that the distance is at most h at some time in [lo, hi]. If the distance is always
-/// above h, the only certificate proves this.
+/// above h, there is only one certificate, which proves this.
 Certificates certify_time(const Query& query);
 
 /// Proofs of the enclosure [lo, hi] that minimum_distance(query) gives: the smallest distance is at least lo,

@@ -51,8 +51,8 @@ bool is_in(const Time& time, const Span& span) {
   return Time(span.from) <= time && (span.is_open ? time < Time(span.to) : time <= Time(span.to));
 }
 
-/// The heading of a certificate that uses no time after `last`. The key "to" is `last` if the span is open,
-/// else the end of the span.
+/// The beginning of a certificate whose proof uses no time after `last`. The key "to" has the value `last` if
+/// the span is open, else the end of the span.
 std::string heading_until(const std::string& last, const Query& query, const Span& span) {
   return heading(query, "meets", span.from, span.is_open ? last : certificates::to_text(Number(span.to)));
 }
@@ -205,7 +205,8 @@ class Crossing {
     return is_proof ? text(p, q) : std::nullopt;
   }
 
-  /// The proof of bracket() for an interval that contains `known`, with ends of as few bits as possible.
+  /// The proof of bracket() for an interval that contains `known`. Intervals whose ends have few bits come
+  /// first.
   [[nodiscard]] std::optional<std::string> wide_bracket(const Enclosure& known) const {
     for (const int bits : {3, 6, 10, 15, 21, 28, 36, 44}) {
       const double lo = std::max(std::ldexp(std::floor(std::ldexp(known.lo, bits)), -bits), span_.from);
@@ -295,8 +296,8 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span,
 constexpr unsigned most_bits = 10'000;
 constexpr unsigned most_bits_of_touch = 5'000;
 
-/// The proof that the distance is h: at the first such time if this time is rational, or soon after it if the
-/// distance stays at h.
+/// The proof that the distance is h at some time. If the first such time is rational, the proof uses it.
+/// Otherwise the proof uses a time soon after it, and is found only if the distance stays at h.
 std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));
   for (const Number least = exact::power_of_half(most_bits_of_touch);; time.refine()) {

@@ -1,4 +1,4 @@
-// Directions that separate two primitives, by the tests that the checkers of certificates use.
+// Directions that separate two primitives, according to the tests that the checkers of certificates use.
 #pragma once
 
 #include <array>

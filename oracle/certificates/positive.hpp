@@ -1,4 +1,4 @@
-// Signs of polynomials on intervals, by the tests that the checkers of certificates use.
+// Signs of polynomials on intervals, according to the tests that the checkers of certificates use.
 #pragma once
 
 #include <algorithm>

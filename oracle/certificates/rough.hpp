@@ -55,7 +55,7 @@ class RoughPolynomial {
   [[nodiscard]] std::optional<bool> is_positive(const Interval& interval) const {
     const std::size_t n = size_;
     auto c = a_;
-    // First computes the coefficients of the powers of (t - lo) / (hi - lo), as exact::OnInterval does.
+    // First, c becomes the coefficients of the powers of (t - lo) / (hi - lo), as in exact::OnInterval.
     if (interval.begin.x != 0 || interval.begin.error != 0)
       for (std::size_t first = 0; first + 1 < n; ++first)
         for (std::size_t i = n - 1; i > first; --i) c[i - 1] = c[i - 1] + c[i] * interval.begin;

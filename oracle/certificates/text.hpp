@@ -12,14 +12,14 @@ namespace nearmiss::certificates {
 /// x as text, such as "3" or "0x1.8p-3"; "p/q" if x is not a double.
 std::string to_text(const exact::Number& x);
 
-/// The beginning of a certificate, up to the keys that only one claim has: {"kind": ..., "to": ...
+/// The beginning of a certificate, {"kind": ..., "to": ..., with the keys that both claims have.
 /// `to` is the text of a number.
 std::string heading(const Query& query, const char* claim, double from, const std::string& to);
 
 /// A certificate, unless it or one of its numbers is longer than the checkers accept.
 std::optional<std::string> if_short(std::string certificate);
 
-/// [a,b,...], where text(element) gives each element.
+/// [a,b,...], where text(element) gives the text of each element.
 template <class List, class Text>
 std::string list(List&& elements, const Text& text) {
   std::string result = "[";

@@ -31,17 +31,18 @@ class Conversion {
 
   [[nodiscard]] double lower(double distance) const { return divided(distance, below); }
   [[nodiscard]] double upper(double distance) const { return divided(distance, above); }
-  /// The smallest distance, up to rounding upward, that is at least `multiple` units; 0 for 0.
+  /// The distance of `multiple` units, rounded up; 0 for 0.
   [[nodiscard]] double at_least(double multiple) const {
     return multiple > 0 ? above(above(std::ldexp(multiple, -shift_)) * mantissa_) : 0;
   }
-  /// The largest distance below `multiple` units, up to rounding downward; at least 0.
+  /// The distance of `multiple` units, rounded to a smaller double; at least 0.
   [[nodiscard]] double below_multiple(double multiple) const {
     return below(below(std::ldexp(multiple, -shift_)) * mantissa_);
   }
 
  private:
-  /// Applies `next` after each of two roundings: that of the quotient, and that of an ldexp that underflows.
+  /// The distance divided by the unit. Applies `next` to the two results that may be rounded: the quotient of
+  /// the mantissas, and the ldexp if it underflows.
   template <class Next>
   [[nodiscard]] double divided(double distance, const Next& next) const {
     int exponent = 0;

@@ -99,7 +99,8 @@ class DistanceSearch {
     return time;
   }
 
-  /// Looks at the double nearest to t, in double. If double is not precise enough, looks precisely at t.
+  /// Looks at the double nearest to t, in double. If double is not precise enough, looks at t itself, in
+  /// Real.
   SampledTime look_at(const Real& t) {
     SampledTime time{Real(to_double(t)), look(rough_vertices(t))};
     note(time);
@@ -111,8 +112,8 @@ class DistanceSearch {
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
   }
 
-  /// Whether the errors of a moment are small: for the distance, compared with the distance; for the lower
-  /// bound, compared with the required distance.
+  /// Whether the errors of a moment are small: that of the distance compared with the distance, and that of
+  /// the lower bound compared with the required distance.
   [[nodiscard]] bool resolves(const Moment& moment) const {
     const Separation& separation = moment.separations[0];
     if (separation.products.empty()) return false;
@@ -151,8 +152,8 @@ class DistanceSearch {
     }
   }
 
-  /// The minimum that a or b predicts, whichever has the steeper slope; the middle if no prediction lies
-  /// between a and b.
+  /// The time of the minimum that a or b predicts. If both predict a time between a and b, the one with the
+  /// steeper slope counts; if neither does, returns the middle.
   static Real guess_between(const SampledTime& a, const SampledTime& b, double width) {
     const bool a_is_inside = 0 < a.moment.step && a.moment.step < width;
     const bool b_is_inside = 0 < -b.moment.step && -b.moment.step < width;
@@ -252,8 +253,8 @@ class DistanceSearch {
                      : times_[gap.before + 1].t - Real(less + step);
   }
 
-  /// Adds lower bounds of the distance to a sampled time. If the time already has all of them but covers
-  /// nothing, looks precisely at it. Returns false if nothing is left to do.
+  /// Adds lower bounds of the distance to a sampled time. If the time already has all of them, but they cover
+  /// nothing, looks at the time again, in Real. Returns false if nothing is left to do.
   bool improve(SampledTime& time, double covered) {
     if (!time.moment.has_all) {
       if (time.moment.is_precise)
@@ -293,8 +294,8 @@ class DistanceSearch {
     return time.hi - time.lo <= width || std::nextafter(time.lo, 2.0) >= time.hi;
   }
 
-  /// Looks into a gap before a time at which the distance is below `low_`. Newton's method from one end of
-  /// the gap gives the next time. Once Newton's step is short, it is doubled, or set to 0.4 of `width` if
+  /// Looks into a gap that ends at a time at which the distance is below `low_`. Newton's method from one end
+  /// of the gap gives the next time. Once Newton's step is short, it is doubled, or set to 0.4 of `width` if
   /// that is longer. So the next time lies beyond the crossing, and the crossing is enclosed from both sides.
   /// If `halve`, the next time is the middle of the uncovered part. Returns false if nothing more can be
   /// done.

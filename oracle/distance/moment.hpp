@@ -73,7 +73,7 @@ double points_error(const VertexDifferences& differences) {
   return 12 * roundoff<Real> * differences.total_reach();
 }
 
-/// An upper bound of the primitives' distance, from the computed distance of a point of each.
+/// An upper bound of the primitives' distance, from the computed distance of two of their points.
 template <class Real>
 double upper_bound(const ClosestPoints<Real>& closest, const VertexDifferences& differences) {
   return std::sqrt(closest.squared_distance) * (1 + 0x1p-48) + points_error<Real>(differences) +

@@ -40,9 +40,10 @@
 // tests/oracle/separation_test.cpp determines m with a scalar that counts roundings in the templates below.
 //
 // The column "taken" exceeds the error to cover terms of second order in U and the rounding of the bounds
-// themselves. Rounding a coefficient to double adds 2^-53 of its magnitude, taken as 2^-52. Underflow adds at
-// most 2^-1018 to a coefficient for each of less than 100 operations, times at most 2^100 for the length of
-// k, and at most 2^-536 to the length of n. This is far below `least_distance`, which is added to each error.
+// themselves. Rounding a coefficient to double adds 2^-53 of its magnitude, taken as 2^-52. In each of less
+// than 100 operations, underflow adds to a coefficient at most 2^-1018 times the length of k, which is at
+// most 2^100. To the length of n, it adds at most 2^-536. All this is far below `least_distance`, which is
+// added to each error.
 
 namespace nearmiss::certified {
 
@@ -55,8 +56,8 @@ struct Product {
   std::array<double, 4> errors{};
 };
 
-/// A lower bound of the distance by one direction n(s). At every s the distance is at least the smallest
-/// product divided by |n|, and |n| is at most length[0] + length[1] |s| + length[2] s².
+/// A lower bound of the distance that one direction n(s) gives. At every s the distance is at least the
+/// smallest product divided by |n|, and |n| is at most length[0] + length[1] |s| + length[2] s².
 struct Separation {
   boost::container::static_vector<Product, 4> products;
   std::array<double, 3> length{};

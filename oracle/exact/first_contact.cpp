@@ -36,15 +36,15 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
   return Meeting{vanishing_weights, true};
 }
 
-/// For an F that is identically zero: polynomials such that the earliest collision, if there is one, is at
-/// t = 0 or at one of their roots in [0, 1].
+/// Polynomials for the case that F is identically zero. If there is a collision, the earliest one is at t = 0
+/// or at a root of one of these polynomials in [0, 1].
 ///
 /// If a component N_k of the normal is not identically zero, the polynomials are N_k and component k of each
 /// weight. Proof: the set of colliding times is closed, so it has a least element t*. Suppose that t* is
 /// neither 0 nor a root of one of the polynomials that are not identically zero. Then N_k is not zero and no
 /// polynomial changes its sign in a neighbourhood of t*, so there are collisions before t*, a contradiction.
-/// If N is identically zero, the polynomials are those of the segments, for the same reason. One of several
-/// proportional polynomials, such as the components of a vector of constant direction, is enough.
+/// If N is identically zero, the polynomials are those of Predicates::segments(), for the same reason. One of
+/// several proportional polynomials, such as the components of a vector of constant direction, is enough.
 std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
   std::vector<Polynomial> deciding;
   const auto add = [&](const Polynomial& p) {

@@ -10,9 +10,10 @@ namespace nearmiss::exact {
 
 /// How the primitives meet at a time.
 struct Meeting {
-  /// The number of weights that vanish. For a triangle: none inside, one on an edge, two at a vertex. For two
-  /// edges: none inside both, one at an end of one edge, two at an end of each edge. Primitives without a
-  /// common normal always meet at a border, so the number is one or two.
+  /// The number of weights that vanish. With a triangle, none vanishes if the primitives meet inside the
+  /// triangle, one on an edge of it, two at a vertex of it. With two edges, none vanishes if they meet inside
+  /// both, one at an end of one edge, two at an end of each edge. Primitives without a common normal always
+  /// meet at a border, so the number is one or two.
   int vanishing_weights = 0;
   /// Whether there is no common normal: the triangle has no area, or the edges are parallel or have no
   /// length.

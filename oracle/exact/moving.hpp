@@ -18,8 +18,7 @@ using certified::dot;
 using certified::operator-;
 
 /// A power of two that scales all coordinates of a query below 1/4. A sum of four coordinates or their
-/// negatives is then below 1, and such sums and most of their products have no more machine words than
-/// necessary.
+/// negatives is then below 1, and such sums and most of their products fill as few machine words as possible.
 class Unit {
  public:
   explicit Unit(const Query& query);

@@ -121,15 +121,15 @@ void Nearness::add_interiors(Interiors&& of) {
 }
 
 // For each pair of features, the constructor collects times at which the closest points of the lines or
-// planes lie in the features. The smallest distance is that of a pair at one of the pair's times. Proof: Let
-// the smallest distance be reached at t0. Of the pairs of features that are at this distance at t0, take one
-// of the lowest dimension. If t0 is neither 0 nor 1, the closest points of the lines or planes through these
-// two features are strictly inside the features, which are not degenerate: otherwise the closest points would
-// lie in features of a lower dimension. So around t0, the features have the distance of the lines or planes.
-// The square of this distance is a quotient of polynomials with a minimum at t0, so its derivative is 0 at
-// t0. If the derivative is not identically 0, t0 is one of its roots. Otherwise the distance stays the same
-// until t is 0 or 1, or until the closest points leave the inside of the features; at that time, features of
-// a lower dimension are at the same distance.
+// planes lie in the features. The smallest distance over the step is the distance of some pair at one of the
+// times collected for this pair. Proof: Let the smallest distance be reached at t0. Take a pair of features
+// of the lowest dimension among those that are at this distance at t0. If t0 is neither 0 nor 1, the closest
+// points of the lines or planes through these two features are strictly inside the features, which are not
+// degenerate: otherwise the closest points would lie in features of a lower dimension. So around t0, the
+// distance of the features is that of the lines or planes. The square of this distance is a quotient of
+// polynomials with a minimum at t0, so its derivative is 0 at t0. If the derivative is not identically 0, t0
+// is one of its roots. Otherwise the distance stays the same until t is 0 or 1, or until the closest points
+// leave the inside of the features; at that time, features of a lower dimension are at the same distance.
 SmallestDistance::SmallestDistance(const Query& query) : unit_(query) {
   const Interiors of = interiors(query.kind, moving_points(query, unit_));
   const Nearness contact(query, 0);  // b = 0, so that each excess is the numerator of a squared distance

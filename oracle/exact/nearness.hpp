@@ -1,4 +1,5 @@
-// The statements in exact polynomials that decide whether two primitives are within a distance at a time.
+// The statements in exact polynomials that decide whether two primitives are within a given distance of each
+// other at a given time.
 #pragma once
 
 #include <array>
@@ -14,8 +15,8 @@ namespace nearmiss::exact {
 /// A statement about two features of the primitives, such as a vertex and an edge: the closest points of the
 /// lines or planes through the features lie in the features, and are within a number b of each other.
 struct FeatureNearness {
-  /// What the features are. Vertex-triangle: `interiors` are the vertex and the inside of the triangle.
-  /// Edge-edge: `interiors` are the insides of both edges.
+  /// The sorts of the two features. `interiors` means the vertex and the inside of the triangle in a
+  /// vertex-triangle query, and the insides of both edges in an edge-edge query.
   enum class Features : std::uint8_t { vertices, vertex_and_edge, interiors };
 
   Features features{};
@@ -34,10 +35,10 @@ struct FeatureNearness {
   [[nodiscard]] bool is_extended_at(Root& t) const;
 };
 
-/// The polynomials about the `interiors`. At a time at which squared_N is positive, |F| / |N| is a distance.
-/// Vertex-triangle: the distance of the vertex from the triangle's plane. Edge-edge: the distance between the
-/// lines of both edges. The closest points of these then lie in the features iff all `outside` are at most 0,
-/// and strictly inside the features iff all `outside` are negative.
+/// The polynomials of the statement about the `interiors`. At a time at which squared_N is positive, |F| /
+/// |N| is the distance of the vertex from the triangle's plane (vertex-triangle), or the distance between the
+/// lines of both edges (edge-edge). The closest points of vertex and plane, or of both lines, then lie in the
+/// features iff all `outside` are at most 0, and strictly inside the features iff all `outside` are negative.
 struct Interiors {
   Polynomial F;
   Polynomial squared_N;
@@ -81,7 +82,7 @@ class SmallestDistance {
 
  private:
   /// For a pair of features: the squared distance of their lines or planes is numerator / denominator, and
-  /// the closest points of these lie in the features at each of `times`.
+  /// the closest points of these lines or planes lie in the features at each of `times`.
   struct Minima {
     Polynomial numerator, denominator;
     std::vector<Root> times;

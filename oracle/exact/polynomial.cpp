@@ -116,8 +116,8 @@ Division divide(const Polynomial& p, const Polynomial& q) {
 }
 
 std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q) {
-  // Computes subresultants, except for their signs. Known common factors are divided out of their
-  // coefficients, which therefore stay as short as determinants of the coefficients of p and q.
+  // The polynomials after p and q are subresultants, up to their signs. Known common factors are divided out
+  // of their coefficients, which therefore stay as short as determinants of the coefficients of p and q.
   std::vector<Polynomial> sequence{p, q};
   Number g = 1;
   Number h = 1;

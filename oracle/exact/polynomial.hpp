@@ -46,8 +46,7 @@ class Polynomial {
 /// Whether one polynomial is a constant times the other; neither may be zero.
 bool are_proportional(const Polynomial& p, const Polynomial& q);
 
-/// The result of divide(p, q): quotient and remainder of a positive multiple of p divided by q, which must
-/// not be zero.
+/// The result of divide(p, q), which divides a positive multiple of p by q. The divisor q must not be zero.
 struct Division {
   Polynomial quotient, remainder;
 };

@@ -26,10 +26,12 @@ struct OnSegment {
 ///  - If a component N_k of the normal is not zero, projecting along axis k loses nothing. The primitives
 ///    then meet iff component k of every weight is zero or has the sign of N_k. Here a weight is a
 ///    barycentric weight times N = q × r. A triangle has the weights of x1, x2 and x3; they add up to N, and
-///    p = w2 q + w3 r for the barycentric weights w2 and w3. Edges have the weights of x1 and x0 on the first
-///    edge, and of x3 and x2 on the second; those of each edge add up to N, and p = α q - β r.
-///  - If N = 0, the triangle is a segment or a point, the union of its edges: it contains x0 iff an edge
-///    does. Two edges are then parallel or points, and meet iff an end point of one lies on the other.
+///    p = w2 q + w3 r for the barycentric weights w2 and w3. Two edges have the weights of x1 and x0 on the
+///    first edge, and of x3 and x2 on the second. The two weights of each edge add up to N, and p = α q - β r
+///    for the barycentric weights α of x1 and β of x3.
+///  - If N = 0, the triangle is a segment or a point, and so it is the union of its edges: it contains x0 iff
+///    one of its edges does. In an edge-edge query, the edges are then parallel or points, and meet iff an
+///    end point of one lies on the other.
 class Predicates {
  public:
   explicit Predicates(const Query& query);

@@ -18,7 +18,7 @@ namespace nearmiss::exact {
 
 namespace {
 
-/// The k of a number whose denominator is 2^k.
+/// The exponent k of the denominator of x, which is 2^k.
 std::ptrdiff_t exponent_of_denominator(const CGAL::Gmpq& x) {
   return static_cast<std::ptrdiff_t>(x.denominator().bit_size()) - 1;
 }
@@ -99,8 +99,8 @@ void shift(Numbers& c, const Multiply& times_shift) {
 
 /// Converts the coefficients of the powers of t, the leading one first, to those of OnInterval.
 Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
-  // First computes the coefficients of the powers of s, a fraction of the interval that is counted from the
-  // end with fewer bits.
+  // First computes the coefficients of the powers of s. Here s is a fraction of the interval, counted from lo
+  // or hi, whichever has fewer bits.
   constexpr std::size_t short_size = 4;  // up to this many coefficients, either end will do
   const bool from_hi = c.size() > short_size &&
                        exponent_of_denominator(CGAL::Gmpq(hi)) < exponent_of_denominator(CGAL::Gmpq(lo));
@@ -319,9 +319,10 @@ void Root::refine() {
 
 namespace {
 
-/// p has at most one root between lo and hi, a simple one, and p and q are not both zero at lo or at hi. If q
-/// shares the root, returns the polynomial of the lowest degree that was found to have this root; otherwise
-/// nothing. A common divisor of p and q has the root if and only if it has different signs at lo and hi.
+/// Requires that p has at most one root between lo and hi, that this root is simple, and that p and q are not
+/// both zero at lo or at hi. If q has the root, too, returns the polynomial of the lowest degree that was
+/// found to have it (p or a common divisor of p and q), otherwise nothing. A common divisor has the root if
+/// and only if the signs of the divisor at lo and hi differ.
 std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Polynomial& q, const Number& lo,
                                                    const Number& hi) {
   constexpr int short_degree = 3;  // up to this degree, finding a divisor takes less time than residues

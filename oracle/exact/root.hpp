@@ -31,14 +31,14 @@ class OnInterval {
   /// p must not be the zero polynomial.
   OnInterval(const Polynomial& p, const Number& lo, const Number& hi);
 
-  /// The polynomial on the part between two fractions of the interval.
+  /// The same polynomial on the part of the interval between two fractions.
   [[nodiscard]] OnInterval part(const Number& from, const Number& to) const;
   /// Rounds very long coefficients. Parts inherit the errors.
   void round();
   /// Whether rounding cannot have changed the sign of any coefficient, or its size by a factor of 2.
   [[nodiscard]] bool is_certain() const;
 
-  /// The n + 1 Bernstein coefficients times binomial coefficients, for the degree n.
+  /// The n + 1 Bernstein coefficients, each times its binomial coefficient, where n is the degree.
   [[nodiscard]] const Numbers& coefficients() const { return c_; }
   [[nodiscard]] int changes() const { return sign_changes(c_); }
   /// The sign on the open interval, if the coefficients show it; else 0.
@@ -53,14 +53,15 @@ class OnInterval {
   [[nodiscard]] double guess_root(int sign_at_lo) const;
   /// Guesses where an extremum may be, as a fraction of the interval.
   [[nodiscard]] double guess_extremum() const;
-  /// Guesses where a cluster of roots may be, as a fraction of the interval that is a multiple of 2^-bits;
-  /// nothing if the guess is outside or at the lower end.
+  /// Guesses where a cluster of roots may be. The result is a fraction of the interval, rounded down to a
+  /// multiple of 2^-bits, or nothing if the guess is not above the lower end, or the rounded guess is above
+  /// the upper end.
   [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
   /// Three fractions of the interval, for the case that all roots are near the same end. All roots lie
   /// strictly between `lower` and `upper`. The distance of `middle` from that end is about the geometric mean
   /// of the distances of `lower` and `upper`. All three are 0 if the coefficients show that there is no root.
-  /// roots_near_end() requires a change of sign, and no root at the ends.
+  /// roots_near_end() requires that the coefficients change their sign, and that no root is at an end.
   struct NearEnd {
     Number lower, middle, upper;
   };
@@ -116,7 +117,7 @@ class Root {
 /// The distinct real roots of p in [0, 1], in ascending order; p must not be zero.
 std::vector<Root> roots_in_step(const Polynomial& p);
 
-/// Whether holds(t) is true for one of the roots of p in [0, 1], passed as Root& t.
+/// Whether holds(t) is true for at least one root t of p in [0, 1]; `holds` takes a Root&.
 template <class Holds>
 bool holds_at_a_root(const Polynomial& p, const Holds& holds) {
   auto roots = roots_in_step(p);

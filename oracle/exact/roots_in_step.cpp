@@ -19,8 +19,8 @@ struct Isolated {
   bool found = true;
 };
 
-/// How to cut a part, in fractions of the part. There is no root outside [lo, hi]; `at` has the cuts inside,
-/// the highest one first.
+/// How to cut a part. All numbers are fractions of the part. There is no root outside [lo, hi]; `at` has the
+/// cuts inside [lo, hi], the highest one first.
 struct Cuts {
   Number lo, hi;
   Numbers at;
@@ -56,9 +56,9 @@ struct Part {
     return {0, 1, {Number(guess + around_it), Number(guess - around_it)}};
   }
 
-  /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster if the coefficients keep
-  /// all changes of sign; then there is no root elsewhere. Returns cuts that separate clusters, if it finds
-  /// any.
+  /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster if the coefficients
+  /// there have as many changes of sign as before; then there is no root elsewhere. Returns cuts that
+  /// separate clusters, if it finds any.
   std::optional<Cuts> clusters(const Polynomial& p) {
     constexpr unsigned least_bits = 11;
     is_in_cluster = true;
@@ -86,10 +86,10 @@ struct Part {
   }
 };
 
-/// Cuts [0, 1] until every part has no root or one simple root. The cuts are alternately near an extremum and
-/// in the middle; there is an extremum between two close roots. `is_simple` says that the polynomial has no
-/// multiple roots. If it is false, the search gives up after a few cuts; if it is true, the search then looks
-/// for clusters of roots between the cuts.
+/// Cuts [0, 1] until every part has no root or one simple root. The cuts are alternately near an extremum,
+/// which separates two close roots, and in the middle. `is_simple` says that the polynomial has no multiple
+/// roots. If it is false, the search gives up after a few cuts; if it is true, the search then looks for
+/// clusters of roots between the cuts.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
   constexpr int few = 4;
   Isolated isolated;

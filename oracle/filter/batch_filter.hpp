@@ -19,10 +19,10 @@
 
 namespace nearmiss::certified {
 
-/// Processes the queries in stages: boxes and moving planes; the sign of F, the coplanarity cubic; parts of
-/// the step. Each stage takes the queries that are still undecided, side by side in n lanes. The last stage
-/// is a simpler version of ContactSearch, and leaves difficult queries undecided. The results of a lane
-/// depend only on its query, so n changes no answer.
+/// Processes the queries in three stages: tests by boxes and moving planes; a test of the sign of F, the
+/// coplanarity cubic; a search in parts of the step. Each stage takes the queries that are still undecided,
+/// side by side in n lanes. The last stage is a simpler version of ContactSearch, and leaves difficult
+/// queries undecided. The results of a lane depend only on its query, so n changes no answer.
 template <int n, Kind kind>
 class BatchFilter {
  public:
@@ -30,8 +30,8 @@ class BatchFilter {
       : queries_(queries), ahead_(ahead), caution_(caution) {}
 
   /// Processes the queries of the kind `kind` among at most batch_size queries. Sets stages[i] if query i is
-  /// decided, and leaves stages[i] `undecided` otherwise. If `times` is not null, sets times[i] if two
-  /// neighbouring doubles around the first contact are found.
+  /// decided, and leaves stages[i] `undecided` otherwise. If `times` is not null, also sets times[i] for each
+  /// query i for which it finds two neighbouring doubles around the first contact.
   void run(FilterStage* stages, KnownTime* times) {
     const Rows all(queries_.size(), [&](std::size_t q) { return queries_.kind(q) == kind; });
     const Rows crossing = cull_by_planes(all, stages);
@@ -72,8 +72,8 @@ class BatchFilter {
     }
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] std::size_t operator[](std::size_t i) const { return rows_[i]; }
-    /// The n indices from `first` on. Those beyond the end of the list are arbitrary, and their lanes are
-    /// ignored.
+    /// The n indices from position `first` of the list on. Indices beyond the end of the list are arbitrary,
+    /// and their lanes are ignored.
     [[nodiscard]] const std::uint8_t* pack(std::size_t first) const { return rows_.data() + first; }
 
    private:
@@ -144,8 +144,8 @@ class BatchFilter {
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
       const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
-      // The stage for the codes 0 to 4: a coordinate is not finite; the primitives are not separated; they
-      // are separated by a plane; by their boxes; by both.
+      // The stages for the codes 0 to 4. Code 0: a coordinate is not finite; 1: the primitives are not
+      // separated; 2: only a plane separates them; 3: only their boxes; 4: both.
       constexpr std::array stage_of{FilterStage::undecided, FilterStage::undecided, FilterStage::planes,
                                     FilterStage::boxes, FilterStage::boxes};
       constexpr int unsure = 1;
@@ -198,7 +198,8 @@ class BatchFilter {
   using Quadratics = std::array<Bernstein<Real, 3>, weight_count>;
   using Look = certified::Look<n>;
 
-  /// F and the weights of n queries; `take` reads their n numbers from an array of F_ or W_.
+  /// F and the weights of n queries. `take` reads n numbers, one for each query, from one of the arrays in F_
+  /// and W_.
   template <class Take>
   std::pair<Bernstein<Real, 4>, Quadratics> polynomials(const Take& take) const {
     const Bernstein<Real, 4> F{{take(F_[0]), take(F_[1]), take(F_[2]), take(F_[3])}, take(F_[4])};
@@ -371,8 +372,8 @@ class BatchFilter {
   std::array<OfBatch, 5> F_;                 ///< Bernstein coefficients and error of F
   std::array<OfBatch, 4 * weight_count> W_;  ///< coefficients and error of each weight
   PendingParts precise_;                     ///< parts for look_precisely()
-  // For each query, the bracket [first_lo_, first_hi_] around the earliest contact found so far, and the
-  // beginning of the first unclear part, or 1 if no part is unclear.
+  // For each query, [first_lo_, first_hi_] is the bracket around the earliest contact found so far.
+  // unclear_from_ is the beginning of the first unclear part, or 1 if no part is unclear.
   OfBatch first_lo_, first_hi_, unclear_from_;
 };
 

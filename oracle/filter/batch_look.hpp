@@ -9,7 +9,7 @@
 #include "oracle/arithmetic/bernstein.hpp"
 #include "oracle/arithmetic/guess.hpp"
 
-// Lanes as the number type of polynomials and of their bounds.
+// What polynomials and their bounds need so that Lanes can be their number type.
 namespace nearmiss {
 
 template <int n>
@@ -55,7 +55,7 @@ struct WeightSigns {
   typename Lanes<n>::Mask agree, opposed;
 };
 
-/// The signs of some weights; `signs_of` gives the signs of one weight.
+/// Combines the signs of all weights of a query; `signs_of` gives the signs of one weight.
 template <int n, std::size_t count, class SignsOf>
 WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
                             const SignsOf& signs_of) {
@@ -70,10 +70,10 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
   return {all & (!opposed), opposed};
 }
 
-/// What look() finds in a part [lo, hi] of the step, in each lane. With `before`, [lo, left] must be examined
-/// next; with `middle`, [left, right]; with `behind`, [right, hi]. With `bracket`, there is a collision in
-/// [left, right]. With `precise`, F has a root in [left, right], but double does not show the signs of the
-/// weights.
+/// What look() finds in a part [lo, hi] of the step, in each lane. The bits of `outcome` have these meanings.
+/// `before`: [lo, left] must be examined next; `middle`: [left, right]; `behind`: [right, hi]. `bracket`:
+/// there is a collision in [left, right]. `precise`: F has a root in [left, right], but double does not show
+/// the signs of the weights.
 template <int n>
 struct Look {
   enum : std::int64_t {
@@ -107,15 +107,15 @@ struct EndSigns {
   }
 };
 
-/// An estimate t of the root of the coplanarity cubic F in [lo, hi], and the bracket [before, behind] around
-/// it, within h of t.
+/// An estimate t of the root of F, the coplanarity cubic, in [lo, hi], and a bracket [before, behind] around
+/// this root, whose ends are at most h from t.
 template <int n>
 struct RootBracket {
   Lanes<n> t, h, before, behind;
   typename Lanes<n>::Mask holds;  ///< the bracket is small, and F certainly changes its sign in the bracket
 
-  /// Finds the root by Newton's method from the root of the secant; f has the Bernstein coefficients of F on
-  /// [lo, hi].
+  /// Finds the root by Newton's method, which starts at the root of the secant. f has the Bernstein
+  /// coefficients of F on [lo, hi].
   RootBracket(const Bernstein<Lanes<n>, 4>& F, const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends,
               const Lanes<n>& lo, const Lanes<n>& hi) {
     using Real = Lanes<n>;
@@ -147,8 +147,9 @@ Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, con
   return lo + (hi - lo) * select(usable, turn, Lanes<n>(0.5));
 }
 
-/// The lanes in which two weights certainly have opposite signs at each end of [lo, hi] at which the sign of
-/// F is not known. So there is no contact at these ends, and dividing the part may still decide the query.
+/// The lanes in which, at each end of [lo, hi] at which the sign of F is not known, two weights certainly
+/// have opposite signs. In these lanes, there is no contact at such ends, and dividing the part may still
+/// decide the query.
 template <int n, std::size_t count>
 typename Lanes<n>::Mask opposed_at_unknown_ends(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
                                                 const EndSigns<n>& ends, const Lanes<n>& lo,

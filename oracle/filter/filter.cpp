@@ -88,8 +88,8 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   Found found = search(query, F, whole, time == nullptr ? Asked::whether : Asked::when);
   if (time != nullptr && found.time) {
     if (const auto neighbours = between_neighbours(query, F, found.time->time)) *time = *neighbours;
-    // There may be an unclear part before the contact, and a search without `time` ends at such a part. The
-    // stage must not depend on `time`, so a search without `time` decides it.
+    // There may be an unclear part before the contact. A search without `time` ends at such a part. The stage
+    // must not depend on `time`, so it is taken from a second search, without `time`.
     if (!found.time->is_between) found = search(query, F, whole);
   }
   if (found.stage != FilterStage::undecided) return found.stage;

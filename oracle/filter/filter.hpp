@@ -51,7 +51,7 @@ inline constexpr double rough_time = 0x1p-30;
 /// The box test is not included.
 std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
-/// Decides many queries of any kinds, including the box test. The instruction set does not affect the
+/// Decides many queries of any kinds; the box test is included. The instruction set does not affect the
 /// answers.
 void filter(const QueryRows& queries, std::span<FilterStage> stages,
             Instructions instructions = chosen_instructions());
@@ -67,8 +67,8 @@ FilterStage filter_for_time(const Query& query, KnownTime& time);
 void filter_for_times(const QueryRows& queries, std::span<FilterStage> stages, std::span<KnownTime> times,
                       Instructions instructions = chosen_instructions());
 
-/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. Queries that
-/// are decided in this way are not near the error bounds.
+/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. If a query is
+/// decided in this way, the values that decide it exceed their error bounds by this factor.
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
 
 }  // namespace nearmiss

@@ -19,8 +19,8 @@ namespace nearmiss::certified {
 /// length.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
-/// What a search is asked: only whether there is a contact, or also when the first contact is, roughly or to
-/// neighbouring doubles.
+/// The question to a search: only whether there is a contact, or also when the first contact is, either
+/// roughly or to neighbouring doubles.
 enum class Asked : std::uint8_t { whether, when, when_precisely };
 
 /// Searches a part of the step for a contact, from the beginning of the part to its end. The search drops an
@@ -50,7 +50,7 @@ class ContactSearch {
 
   /// An interval of the step. If the search was asked for a time, the interval contains the first contact in
   /// this part, and the result is nothing if there certainly is no contact. If the search was asked only
-  /// whether there is a contact, the result is the interval that is unclear, or nothing.
+  /// whether there is a contact, and run() returned `undecided`, the result is the interval that is unclear.
   [[nodiscard]] std::optional<Enclosure> first() const {
     if (!found_ || !unclear_) return found_ ? found_ : unclear_;
     return Enclosure{std::min(found_->lo, unclear_->lo), found_->hi};
@@ -99,7 +99,8 @@ class ContactSearch {
   static std::array<double, 4> backwards(const std::array<double, 4>& f) { return {f[3], f[2], f[1], f[0]}; }
 
   /// Estimates where in an interval, as a fraction of its length, |F| begins to exceed its error by the
-  /// factor `clear`. The term that rises fastest decides.
+  /// factor `clear`. This is the smallest fraction at which a single term of F does so, or 0.5 if that is not
+  /// below 0.25.
   [[nodiscard]] double beyond_error(const std::array<double, 4>& f) const {
     const Powers<double> F = in_powers(f);
     const double rise = clear * F_.error;
@@ -192,8 +193,8 @@ class ContactSearch {
     return F_.sign_on(interval.lo, near.lo) != 0 && F_.sign_on(near.hi, interval.hi) != 0;
   }
 
-  /// The widest of some intervals that contain `near` and in which two weights certainly have opposite signs,
-  /// as they have in `near`.
+  /// Two weights certainly have opposite signs in `near`. Tries a few wider intervals around it, and returns
+  /// the widest in which this holds, too, or `near`.
   Enclosure widest_opposed(const Enclosure& interval, double root, const Enclosure& near,
                            const Weights<Real>& weights) const {
     for (const double part : {0.25, 0x1p-5}) {
@@ -229,7 +230,8 @@ class ContactSearch {
     return asked_ == Asked::whether ? FilterStage::undecided : FilterStage::weights;
   }
 
-  /// Searches the interval as a part of its own, if it is at most half as long as this part.
+  /// Searches the interval as a part of its own. The interval remains unclear if it is longer than half of
+  /// this part, or if this part is too short or too deep.
   FilterStage zoom(const Enclosure& interval) {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;
@@ -250,7 +252,7 @@ class ContactSearch {
   [[nodiscard]] bool is_whole() const { return part_.end - part_.begin == 1; }
 
   /// Converts an interval of this part to the time of the step, and widens it by `rounding` within this part.
-  /// `zoom_rounding` is more than the error of four roundings of numbers up to 1.
+  /// `zoom_rounding` as `rounding` covers the errors of this function: four roundings of numbers up to 1.
   [[nodiscard]] Enclosure in_step(const Enclosure& interval, double rounding) const {
     const double length = part_.end - part_.begin;
     return {std::max(part_.begin, part_.begin + interval.lo * length - rounding),

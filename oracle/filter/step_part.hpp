@@ -25,7 +25,7 @@
 // Rounding errors are in units of U, the relative error of one operation (`roundoff`); (1 + U)^k - 1 is at
 // most 1.01 k U. A vector v comes with V, the largest magnitudes of its computed components, and e_v, bounds
 // of the errors of these components. tests/proofs/ derives each constant below again from this code, proves
-// it with Gappa, and shows how near an error can come to it.
+// with Gappa that it suffices, and shows how near an error can come to its bound.
 //
 // - A product x y of two components changes by at most X e_y + Y e_x + e_x e_y because of the errors of its
 //   factors.
@@ -38,12 +38,12 @@
 //   [0, 1]. Two levels add 6.1 U (w + l). In all, the error is at most 9.2 U w + (1 + 6.1 U) l (8 U w is
 //   proven, since t itself is exact). The code uses 10 U w + 1.01 l.
 //
-// - F is the dot product of such W_k, without the halving, and a third vector a. The errors from the factors
-//   are L = Σ (A_k l_k + e_a (w_k + l_k)). There are 3 roundings in W_k, 1 in its product with a_k, 2 in the
-//   two additions of the dot product, 1 in the sum of two dot products, and 2 in a division by 3 (in double
-//   words, a product with a rounded 1/3). These 9 roundings add 9 U M with M = Σ A_k w_k. Three levels of de
-//   Casteljau's algorithm add 9.1 U (M + L). In all, the error is at most 18.3 U M + (1 + 9.1 U) L (16 U M is
-//   proven, and 17 U M in double words). The code uses 20 U M + 1.01 L.
+// - F is the dot product of a third vector a and such W_k, in which the halving is left out. The errors from
+//   the factors are L = Σ (A_k l_k + e_a (w_k + l_k)). There are 3 roundings in W_k, 1 in its product with
+//   a_k, 2 in the two additions of the dot product, 1 in the sum of two dot products, and 2 in a division by
+//   3 (in double words, a product with a rounded 1/3). These 9 roundings add 9 U M with M = Σ A_k w_k. Three
+//   levels of de Casteljau's algorithm add 9.1 U (M + L). In all, the error is at most 18.3 U M + (1 + 9.1 U)
+//   L (16 U M is proven, and 17 U M in double words). The code uses 20 U M + 1.01 L.
 //
 // - w, l, M and L are computed in double and may be too small by a relative error of 12 · 2^-53. This is far
 //   less than the margins of the code's constants.
@@ -250,7 +250,7 @@ struct Weights {
   [[nodiscard]] int agreement_on(double lo, double hi) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
   }
-  /// Like agreement_on(t - h, t + h), but faster, and as good if h is small.
+  /// Like agreement_on(t - h, t + h), but faster. If h is small, the result is as sharp.
   [[nodiscard]] int agreement_near(double t, double h) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_near(t, h); });
   }

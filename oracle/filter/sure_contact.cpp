@@ -54,8 +54,8 @@ struct InPlane {
   Motion<double> from_start, to_end, along;  ///< start to vertex, vertex to end, and start to end of the edge
   std::size_t k;
 
-  /// Whether the vertex certainly crosses the edge near a time t at which `area`, that of the triangle of the
-  /// vertex and the edge, is about 0. When the area changes its sign, the vertex is on the edge's line. If,
+  /// Whether the vertex certainly crosses the edge near t. `area` is the area of the triangle of the vertex
+  /// and the edge, and is about 0 at t. When the area changes its sign, the vertex is on the edge's line. If,
   /// in one coordinate, the vertex is also between the ends of the edge, it is on the edge.
   [[nodiscard]] bool cross_near(double t, const Bernstein<double, 3>& area) const {
     const double slope = 2 * ((1 - t) * (area.b[1] - area.b[0]) + t * (area.b[2] - area.b[1]));

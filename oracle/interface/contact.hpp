@@ -1,4 +1,4 @@
-// The oracle behind the interface that contact codes use for CCD. Its functions take the positions of all
+// The oracle, with the interface that contact codes use for CCD: the functions take the positions of all
 // points at the start and the end of the step, a minimum distance and the largest time, and give a time of
 // impact. nearmiss::ExactCCD can replace a class whose functions have the names and arguments below. C++20.
 #pragma once

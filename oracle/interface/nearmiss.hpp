@@ -145,8 +145,9 @@ bool fits(const Queries& queries, std::span<T> to, bool may_be_empty = false) {
   return to.size() == queries.size() || (may_be_empty && to.empty());
 }
 
-/// Calls a C function with the layout, unless a span does not fit, or there are no queries: an empty span may
-/// be a null pointer, which the C functions refuse.
+/// Calls a C function with the layout. If a span does not fit, returns bad_argument instead. If there are no
+/// queries, returns ok without a call, because an empty span may be a null pointer, which the C functions
+/// refuse.
 template <class Call>
 Status ask(const Queries& queries, bool fit, const Call& call) {
   if (!fit || !queries.has_its_separations()) return Status::bad_argument;

@@ -3,10 +3,11 @@
  *
  * The answers are those of exact arithmetic, for all finite coordinates, including huge and subnormal ones
  * and degenerate primitives. Nearly all queries are decided in double arithmetic with certified error bounds,
- * without memory from the heap. Exact arithmetic decides the other queries, and contact at t = 0 or t = 1 if
- * double arithmetic cannot. Exact arithmetic allocates memory and takes microseconds to milliseconds; the
- * slowest known queries, with coordinates of very different sizes, take tenths of a second. Distances
- * allocate memory, too. A program cannot go on after an allocation that fails inside GMP or CGAL.
+ * without memory from the heap. Exact arithmetic decides the other queries. It also decides whether there is
+ * contact at t = 0 or t = 1, if double arithmetic cannot. Exact arithmetic allocates memory and takes
+ * microseconds to milliseconds; the slowest known queries, with coordinates of very different sizes, take
+ * tenths of a second. nearmiss_smallest_distance() allocates memory, too. A program cannot go on after an
+ * allocation that fails inside GMP or CGAL.
  *
  * Many threads may call all functions at once; each call works in its own thread. The functions set the
  * processor's rounding mode if need be, and restore it. They do not print or throw. */
@@ -46,7 +47,7 @@ int nearmiss_earliest_time(const nearmiss_queries* queries, double width, double
 int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t* answers, double* toi);
 
 /** The smallest distance d over the step: lo[q] <= d <= hi[q], where hi - lo is at most relative_width * hi,
- * or as small as doubles allow; both are 0 if the primitives touch, and NaN if there is no answer.
+ * or as small as doubles allow. Both lo and hi are 0 if the primitives touch, and NaN if there is no answer.
  * Separations are ignored. `relative_width` must not be negative. `hi` may be null. */
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi);
@@ -58,7 +59,7 @@ int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_
  *     what                       statements
  *     NEARMISS_PROVE_DECISION    the distance is always above h; or it is at most h at some time
  *     NEARMISS_PROVE_TIME        the distance is above h in [0, lo), unless lo is 0; it is at most h at some
- *                                time in [lo, hi]. If there is no collision, as for NEARMISS_PROVE_DECISION
+ *                                time in [lo, hi]. Without a collision: the distance is always above h
  *     NEARMISS_PROVE_DISTANCE    the distance is always at least lo, unless lo is 0; it is at most hi at some
  *                                time, unless hi is infinite. Separations are ignored
  *

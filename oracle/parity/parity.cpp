@@ -139,8 +139,8 @@ bool reaches_zero_at_root(Quadratic g, const Quadratic& h) {
   return false;
 }
 
-/// Whether the origin is on a flat patch whose plane contains it: whether, for some t in [0, 1], it is on the
-/// segment between the points of the patch at s = 0 and s = 1.
+/// Whether the origin is on a flat patch, if it is in the patch's plane. It is on the patch iff, for some t
+/// in [0, 1], it is on the segment between the patch's points (s, t) with s = 0 and s = 1.
 bool flat_patch_holds_origin(const BilinearPatch& patch) {
   const IntegerVector a0 = patch.p00;
   const IntegerVector a1 = patch.p01 - patch.p00;
@@ -158,8 +158,8 @@ bool flat_patch_holds_origin(const BilinearPatch& patch) {
 }
 
 /// The place of the origin relative to a patch. The barycentric coordinates λ of a point in the tetrahedron
-/// of the corners satisfy λ00 λ11 = λ10 λ01 only on the patch. The two faces of the tetrahedron with the edge
-/// p00 p11 are on the side of the patch on which λ00 λ11 > λ10 λ01.
+/// of the corners satisfy λ00 λ11 = λ10 λ01 only on the patch. The two faces of the tetrahedron that share
+/// the edge p00 p11 are on the side of the patch on which λ00 λ11 > λ10 λ01.
 struct Position {
   bool on_patch = false;
   bool in_plane = false;    ///< the origin is in a flat patch's plane; rays out of the plane miss the patch
@@ -191,8 +191,8 @@ Position position(const BilinearPatch& patch) {
   return result;
 }
 
-/// The crossings with a patch that does not contain the origin. Two triangles with the border of the patch
-/// replace it; the origin is not between the triangles and the patch.
+/// The crossings with a patch that does not contain the origin. Counts the crossings with two triangles
+/// instead. They have the same border as the patch, and the origin is not between them and the patch.
 Crossings cross_patch(const BilinearPatch& patch, const Position& position, const RayDirection& d) {
   const auto& [p00, p10, p01, p11] = patch;
   if (position.in_plane) {

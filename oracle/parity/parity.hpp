@@ -14,10 +14,11 @@ struct RootParity {
   [[nodiscard]] bool collision() const { return on_boundary || odd; }
 };
 
-/// Root parity (Brochu, Edwards and Bridson 2012). f(t, u, v), the difference of a point of each primitive at
-/// time t, maps a prism (vertex-triangle) or a cube (edge-edge) to space. The number of roots of f is odd iff
-/// a ray from the origin crosses the image of the boundary of this domain an odd number of times. The answer
-/// is exact: if the ray meets an edge, other directions are tried, and finally an infinitesimal perturbation.
+/// Root parity (Brochu, Edwards and Bridson 2012). f(t, u, v), the difference of two points at time t, one on
+/// each primitive, maps a prism (vertex-triangle) or a cube (edge-edge) to space. The number of roots of f is
+/// odd iff a ray from the origin crosses the image of the boundary of this domain an odd number of times. The
+/// answer is exact: if the ray meets an edge, other directions are tried, and finally an infinitesimal
+/// perturbation.
 RootParity root_parity(const Query& query);
 
 }  // namespace nearmiss

@@ -75,7 +75,7 @@ std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& o
 
 namespace {
 
-/// The key by which Campaign::findings sorts.
+/// The key by which Campaign::findings sorts this finding.
 auto place_of(const Finding& finding, const Statistics& statistics) {
   const bool is_of_oracle = finding.subject.empty();
   const auto times_seen = statistics.times_seen(signature_of(finding));
@@ -186,13 +186,14 @@ class RunMerger {
 
   std::map<RunInfo, Run> runs_;
   std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;  ///< facts and input of a task's first run
-  /// What each name of a plug-in or of a renamed subject stands for, and the first input that has the name.
+  /// For each name of a plug-in or of a renamed subject: what the name stands for, and the first input that
+  /// has it.
   std::map<std::string, std::pair<std::string, std::string>> by_subject_;
   std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that contains each shard
 };
 
-/// Whether the fact `of` lists a name that fulfils a condition; true if the run does not have the fact.
-/// Commas divide the list, and a blank ends a name; the text after the blank is a comment.
+/// Whether the fact named `of` lists a name for which `condition` holds; true if the run does not have the
+/// fact. Commas divide the list, and a blank ends a name; the text after the blank is a comment.
 template <class Condition>
 bool any_name(const RunInfo& info, const std::string& of, const Condition& condition) {
   const std::string text = fact(info, of);

@@ -15,8 +15,8 @@
 
 namespace nearmiss {
 
-/// The order of findings for display: by the class of the query, then shrunk findings first, then by
-/// exoticness(), the rank of the shrunk query.
+/// The key that orders findings for display: by the class of the query, then shrunk findings before the
+/// others, then by exoticness(), the rank of the shrunk query.
 inline auto least_exotic_first(const Finding& finding) {
   return std::tuple(finding.query_class, !finding.is_shrunk, exoticness(finding.shrunk, finding.query_class));
 }
@@ -42,11 +42,12 @@ inline constexpr std::string_view about_subject = "subject ";
 /// and the commit of nearmiss, and the bytes and the version of each plug-in.
 bool says_which_code(std::string_view fact);
 
-/// The facts that say what a run was asked to do, without those that say which code ran or what a salvage
-/// lost.
+/// The facts of a run that say what it was asked to do. The facts that say which code ran or what a salvage
+/// lost are left out.
 RunInfo task_of(const RunInfo& info);
 
-/// A fact that differs between two runs, and its values in `one` and `other`; "" in a run without the fact.
+/// A fact that differs between two runs: its name, and its values in the two runs. A value is "" if the run
+/// does not have the fact.
 struct DifferentFact {
   std::string name, one, other;
 };
@@ -99,7 +100,8 @@ struct Campaign {
   /// other findings in doubt. Findings that never count (beyond a contract) or count only on request
   /// (--fail-on) come last. Within these groups, findings are sorted by `least_exotic_first`, then by how
   /// often the signature was seen, then by signature, then by the simplicity of the shrunk query. If several
-  /// findings of a signature and class are shrunk to the same query, only the first of them is listed.
+  /// findings have the same signature, class, `broken_since` and shrunk query, only the first of them is
+  /// listed.
   [[nodiscard]] std::vector<Finding> findings() const;
 };
 

@@ -58,7 +58,7 @@ struct NightReport {
   std::set<std::string> baseline = {};  ///< the dates of the runs in the report's baseline
 };
 
-/// The nights in a folder, in the order of their dates. A night always comes after the nights of its
+/// The nights in a folder, in the order of their dates. But a night always comes after the nights of its
 /// baseline, even if the clock was set back in between. A subfolder is a night if it has a report.json
 /// (directly or in report/) or a store, or if its name is a date as tools/nightly writes it. Throws Error if
 /// the folder has no night or cannot be read.

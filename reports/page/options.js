@@ -2,8 +2,8 @@
 "use strict";
 
 /**
- * For each chart of an option: the field that the chart shows, its title, and the format of its numbers
- * unless this is the usual one (logAxis).
+ * For each chart of an option: the field that the chart shows, the chart's title, and the format of its
+ * numbers, which is left out if it is the usual one (logAxis).
  */
 const optionCharts = [
   ["false_negative_rate", "missed, among collisions", "share(datum.value)"],

@@ -24,8 +24,8 @@ const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a
 
 /**
  * A query whose coordinates are moved and scaled into [-1, 1]. The function `at` returns the scaled places of
- * the vertices at the time t of the query's step, or of another `step` of the same vertices. `unit` is the
- * length that is scaled to 1.
+ * the vertices at the time t of the query's step. If it gets another `step` of the same vertices, it returns
+ * their places at the time t of that step. `unit` is the length that is scaled to 1.
  */
 function scaledQuery(query) {
   const x = query.slice(0, query.length - (query.length % 6));
@@ -67,8 +67,9 @@ function clipped(points, low, high) {
 
 /**
  * A picture that can be drawn again.
- * @param shown {kind, query, time: t* or when the primitives are closest, toi: the time that a subject gave for t*,
- * step: the rounded step to toi, if it has contact}; toi and step may be missing
+ * @param shown {kind, query, time: t* or the time at which the primitives are closest, toi: the time that a
+ * subject gave for t*, step: the rounded step from 0 to toi, if this step has contact}; toi and step may be
+ * missing
  * @param size [width, height]
  * @returns {svg, draw(view)}; a view has {yaw, pitch, zoom, time, isLabelled, normal: the normal of a plane between the primitives}
  */

@@ -4,8 +4,8 @@
 
 const sortsOfTime = { "lower-bound": "lower bound", estimate: "estimate" };
 /**
- * The encoding of a chart that distinguishes the two sorts of time by `looks`, such as two shapes or two
- * patterns of dashes.
+ * The encoding with which a chart shows the two sorts of time. `looks` has a look for each sort, such as two
+ * shapes or two patterns of dashes.
  */
 const bySort = (looks) => ({ field: "sort", type: "nominal", title: "time", scale: { domain: Object.values(sortsOfTime), range: looks },
   legend: { symbolFillColor: color("--ink"), symbolStrokeColor: color("--ink") } });
@@ -64,7 +64,8 @@ function drawEarliness() {
 /** The column of late times, for subjects that promise lower bounds. */
 const lateTimes = { title: "late", number: (r) => r.late, text: (r) => (r.times_promised > 0 ? integer(r.late) : "–"), bad: (r) => r.late > 0 };
 /**
- * The column of committed times: sound lower bounds for which the rounded step has contact before its end.
+ * The column of committed times. Such a time is a sound lower bound, but the rounded step to this time has
+ * contact before the step ends.
  */
 const committedSteps = { title: "committed", number: (r) => r.committed, text: (r) => (r.times_promised > 0 ? integer(r.committed) : "–"), bad: (r) => r.unsafe_steps > 0 };
 
@@ -89,8 +90,9 @@ function drawTimes() {
 // --- histograms -----------------------------------------------------------------------------------
 
 /**
- * The two histograms of a subject and kind as one, from the earliest time to the latest: bin i of the times
- * before t* (the exact earliest time) is at place -i, bin i of the times after t* at place i.
+ * The two histograms of a subject and kind, joined into one from the earliest time to the latest. Bin i of
+ * the times before t* (the exact earliest time) is at place -i, and bin i of the times after t* is at place
+ * i.
  */
 function binsOfErrors(row) {
   const { early_histogram: early, after_histogram: after } = row;

@@ -12,8 +12,8 @@ function certificateNumber(text) {
 }
 
 /**
- * A function of the time. It returns the unit normal of the plane that a certificate puts between the
- * primitives at that time; undefined if the certificate has no such plane.
+ * A function of the time. At a time at which a certificate puts a plane between the primitives, the function
+ * returns the plane's unit normal, otherwise undefined.
  */
 function normalOf(certificate) {
   const { times, normals } = certificate ? JSON.parse(certificate) : {};

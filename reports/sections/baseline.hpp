@@ -47,8 +47,8 @@ struct Sightings {
 struct ChangedSignatures {
   /// Ways to fail that are new, or more frequent than chance explains, in the order of Signature.
   std::vector<Signature> new_signatures = {};
-  /// Signatures that the baseline does not have, but that chance explains: their subject already has failures
-  /// of the same sort in the baseline, and the signatures are rare.
+  /// Signatures that the baseline does not have, but that are not new, because chance explains them: they are
+  /// rare, and their subject already has failures of the same sort in the baseline.
   std::vector<Signature> unseen_signatures = {};
   double expected_unseen = 0;  ///< expected number of unseen signatures if nothing has changed
   /// Signatures that only the baseline has, if chance hardly explains that they are absent now.
@@ -82,8 +82,8 @@ struct ChangedSignatures {
 /// not make the fault new again.
 ///
 /// The steps of a sweep (a family with different values of its parameter) share their random draws, so the
-/// queries of a campaign with sweeps are not independent samples. Therefore the test counts draws: the
-/// smallest number of draws that could have made the queries.
+/// queries of a campaign with sweeps are not independent samples. Therefore the test counts draws instead of
+/// queries. It takes the smallest number of draws that could have made the queries.
 ///
 /// The test needs the ratio of the numbers of queries now and before. Campaigns that a time limit ended have
 /// different ratios for different families, and the families in which a signature was seen are not recorded.
@@ -118,11 +118,11 @@ struct ComparedRates {
 /// Compares, by Fisher's exact test, the rates of all families that both a campaign and its baseline have.
 /// The earlier rate is computed from the last campaign of the baseline, and from those campaigns whose rate
 /// differs from that of the last campaign by no more than chance explains (for the reason given for
-/// compare_signatures). For each subject, the function also adds up the rates of those families and kinds
-/// that have few failures in the campaign and its baseline together, and compares these sums, to notice a new
-/// way to fail that is spread over many families. The steps of a sweep share their random draws, so a sum
-/// includes only the sweep's step with the most failures. Cases and meshes are left out, because they are no
-/// random samples.
+/// compare_signatures). A new way to fail may be spread over many families. To notice it, the function also
+/// adds up, for each subject, the rates of those families and kinds that have few failures in the campaign
+/// and its baseline together, and compares these sums. The steps of a sweep share their random draws, so a
+/// sum includes only the sweep's step with the most failures. Cases and meshes are left out, because they are
+/// no random samples.
 ///
 /// @param risk the probability of calling some rate changed although none has changed; each comparison has an
 /// equal part of this risk (Bonferroni)
@@ -130,8 +130,8 @@ ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> bas
 
 /// A run time per query that differs from the expected time by more than chance explains.
 struct ChangedTime {
-  /// For a subject as a whole, `family` is ChangedTime::all_families, and `kind` names all kinds, as in "vt,
-  /// ee".
+  /// If the time is that of a subject as a whole, `family` is ChangedTime::all_families, and `kind` names all
+  /// kinds, as in "vt, ee".
   std::string subject, kind, family;
   double before = 0;    ///< ns in the baseline: the geometric mean over its campaigns
   double expected = 0;  ///< ns expected now: `before` multiplied by the slowdown of everything else
@@ -172,8 +172,8 @@ struct ComparedTimes {
 /// equal part of this risk (Bonferroni)
 ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
 
-/// A fact that differs between the runs of the baseline and of the campaign. `before` and `now` are all
-/// values of the fact, joined with " | ".
+/// A fact that differs between the runs of the baseline and of the campaign. `before` has all values of the
+/// fact in the baseline, and `now` those in the campaign, joined with " | ".
 struct ChangedFact {
   std::string name, before, now;
 };

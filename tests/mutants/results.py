@@ -12,8 +12,8 @@ TEST_DATA = {'.py', '.txt', '.case'}
 
 
 class Results:
-    """The results by mutant. A change of the product makes every result invalid. A change of the tests
-    makes a result invalid if no test noticed the mutant."""
+    """The stored result of each mutant. A change of the product makes every result invalid. A
+    change of the tests makes a result invalid if no test noticed the mutant."""
 
     def __init__(self, file=FILE):
         self.file = file

@@ -18,7 +18,7 @@ def sha(*parts):
 
 
 def shown(text):
-    """The text in one line, with single blanks."""
+    """The words of a text in one line, separated by single blanks."""
     return ' '.join(text.split())
 
 
@@ -33,7 +33,8 @@ def cpp_files(folders, root=ROOT):
 
 
 def fingerprint(folders, suffixes, root=ROOT):
-    """A hash of the files with these suffixes in folders, without the files of this tool."""
+    """A hash of the files in `folders` that have one of `suffixes`. Leaves out npm's packages and
+    this tool's files."""
     digest = hashlib.sha256()
     for folder in folders:
         for path in sorted((root / folder).rglob('*')):

@@ -1,4 +1,4 @@
-"""The tests as steps, each with its time without a mutant."""
+"""Lists the tests as steps, and measures how long each step takes without a mutant."""
 
 import hashlib
 import json
@@ -20,7 +20,8 @@ MEMORY = 6 << 30  # bytes of address space for each process
 
 @dataclass
 class Step:
-    """A GoogleTest of the executable `group`, or the command `group` with the argument `test`, if any."""
+    """A GoogleTest of the executable `group`; or the command `group`, with the argument `test`
+    unless `test` is empty."""
 
     group: str
     test: str
@@ -48,8 +49,8 @@ def commands():
 
 
 def run_tests(group, tests, seconds, layer=None):
-    """Runs tests of a group until one fails, with the mutant of a layer if one is given. The tests cannot
-    affect other processes. Removes their files afterwards."""
+    """Runs tests of a group until one fails. If `layer` is given, the tests run with its mutant.
+    The tests cannot affect other processes. Removes the tests' files afterwards."""
     with tempfile.TemporaryDirectory(prefix='test-', dir=WORK) as folder:
         if group in commands():
             words = [*commands()[group], *filter(None, tests)]
@@ -83,7 +84,8 @@ def all_steps():
 
 
 def measured(step):
-    """Notes in a step its time without a mutant, and whether it passes. Returns the step."""
+    """Runs a step without a mutant. Stores in the step how long it took and whether it passed.
+    Returns the step."""
     ended = run_tests(step.group, [step.test], MOST_SECONDS)
     step.cpu, step.wall = round(ended.cpu, 3), round(ended.wall, 3)
     step.fine = ended.code == 0 and not ended.late
@@ -91,7 +93,7 @@ def measured(step):
 
 
 def state():
-    """A hash of the executables and plug-ins that the tests use, as far as they are built."""
+    """A hash of those executables and plug-ins of the tests that are built."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
     files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker']
@@ -101,8 +103,8 @@ def state():
 
 
 def baseline(steps, jobs, say):
-    """Returns the steps with their times. Measures only times that no earlier call has saved for this
-    build. Says which steps are left out."""
+    """Returns the steps with their times. Measures only times that no earlier call has saved for
+    this build. Prints which steps fail or take too long without a mutant."""
     built = state()
     kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}
     known = kept.get('steps', {}) if kept.get('built') == built else {}

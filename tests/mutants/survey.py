@@ -17,7 +17,7 @@ def say(text):
 
 
 class Survey:
-    """The results of mutants, `jobs` of which are built and tested at a time."""
+    """Finds the results of mutants. Builds and tests `jobs` mutants at a time."""
 
     def __init__(self, drawn, jobs):
         self.drawn, self.jobs = drawn, jobs
@@ -43,8 +43,8 @@ class Survey:
         self.steps = [step for step in baseline(all_steps(), self.jobs, say) if step.fine]
 
     def find(self, mutation, layer):
-        """Builds and runs first the tests of the mutant's own folder, then all others. A mutant is not valid
-        if it does not compile, or if its file is not compiled here."""
+        """First builds and runs the tests of the mutant's own folder, then all others. A mutant is
+        not valid if it does not compile, or if its file is not compiled here."""
         own = mutation.file.split('/')[0]
         answer, is_compiled = Answer(), False
         layer.begin(mutation)
@@ -85,6 +85,6 @@ class Survey:
         return mutation, result
 
     def take(self):
-        """All results, as pairs of a mutant and its result."""
+        """The pairs of each mutant and its result."""
         with ThreadPoolExecutor(self.jobs) as pool:
             return list(pool.map(self.result_of, self.drawn))

@@ -1,4 +1,5 @@
-// The comparison of exact methods: what it allows, what it catches, and how a method is added.
+// Tests the comparison of exact methods: which answers it accepts, which contradictions it finds, and how a
+// method is added.
 #include "oracle/agreement/answers.hpp"
 #include "oracle/agreement/checked.hpp"
 
@@ -86,8 +87,8 @@ TEST(Agreement, TheFilterContradictsATie) {
             "at most h (no: filter; yes: first)");
 }
 
-// The decision claims a tie, a smallest distance of exactly h, but there is none, and there is no method that
-// could contradict the decision.
+// The decision claims a tie, but the smallest distance is not exactly h. No method is asked that could
+// contradict the decision.
 TEST(Agreement, AWrongDecisionIsNotProved) {
   const Query far = with_separation(miss, 0.5);  // miss has the distance 1
   const Query near = with_separation(miss, 2);
@@ -101,8 +102,8 @@ TEST(Agreement, AWrongDecisionIsNotProved) {
 
 TEST(Agreement, ATieAtTheLargestDoubleNeedsNoProofAboveIt) {
   constexpr double M = std::numeric_limits<double>::max();
-  // The triangle is degenerate, a segment. It is exactly M, the largest double, below the vertex when 2 t² =
-  // 1, and never nearer.
+  // The triangle is degenerate: it is a segment. When 2 t² = 1, the vertex is exactly M, the largest double,
+  // above the segment. At all other times, their distance is larger.
   const Query tie{.kind = Kind::vertex_triangle,
                   .x = {0,  -.5, M, -1, 0,  0, 1, 0, 0, -1, 0,  0,  //
                         -1, -.5, M, -1, -1, 0, 1, 1, 0, -1, -1, 0},

@@ -1,5 +1,5 @@
-// The oracle gives the same answers in every rounding mode of its caller, also if the processor takes
-// subnormal numbers for zero, and restores the caller's mode.
+// The oracle gives the same answers in every rounding mode of its caller, even if the processor treats
+// subnormal numbers as zero. It then restores the caller's mode.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -58,7 +58,7 @@ class Hostile : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Arithmetic, Hostile,
                          ::testing::Values(FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO));
 
-/// The oracle's answers about subnormal times, with and without a separation.
+/// The oracle's answers about contacts at tiny times, some of them subnormal, with and without a separation.
 std::vector<double> answers_about_times() {
   std::vector<double> all;
   for (const double z : {0.0, 0x1p-1030, 0x1p-1074, 0x1.8p-60})

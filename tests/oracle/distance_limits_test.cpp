@@ -41,15 +41,16 @@ TEST(ClosestRatio, OfASubnormalUnitIsTheSameWhereTheCallerTakesSubnormalsForZero
 Query nearly_overflowing() { return falling_vertex(0.25, 0.25, 0x1.8p1023, 0x1.2p1023); }
 
 TEST(DistanceInUnits, IsFiniteWhereTheRatioIs) {
-  // Only an enclosure with lo = hi would be narrow enough, and no search finds one. So exact comparisons
-  // enclose the ratio as narrowly as doubles allow.
+  // The function that is passed requires an enclosure with lo = hi, which the search cannot find. So exact
+  // comparisons enclose the ratio as narrowly as doubles allow.
   const Enclosure ratio = distance_in_units(nearly_overflowing(), 0x1.1p1023, [](double hi) { return hi; });
   EXPECT_LE(ratio.lo, 0x1.2p0 / 0x1.1p0);
   EXPECT_GE(ratio.hi, 0x1.2p0 / 0x1.1p0);
   EXPECT_LE(ratio.hi, 0x1.2p0 / 0x1.1p0 * (1 + 0x1p-48));
 }
 
-// The distance is 1. The double nearest to 1/3 is below 1/3, so an upper end must be larger than that double.
+// The distance is 1. The double nearest to 1/3 is below 1/3, so the enclosure's upper end must be larger than
+// that double.
 TEST(DistanceInUnits, IsRoundedOutward) {
   const Query query = falling_vertex(0.25, 0.25, 2, 1);
   const Enclosure third = distance_in_units(query, 3, [](double hi) { return hi * (1 - 0x1p-40); });
@@ -120,7 +121,7 @@ TEST(ClosestTime, IsWhereTheyAreAboutAsNearAsTheyCome) {
 TEST(ClosestApproach, FindsANarrowMinimumFarFromBothEnds) {
   using namespace certified;
   const auto needed = [](double upper) { return 0.999 * upper; };
-  // The distance is about 2^-31 of the largest difference of two coordinates.
+  // The smallest distance is about 2^-31 times the largest difference of two coordinates.
   EXPECT_TRUE(closest_approach(VertexDifferences(passing_edges()), needed).enough);
 }
 

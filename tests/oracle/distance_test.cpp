@@ -124,7 +124,7 @@ TEST(ComesWithin, AgreesWithEnclosures) {
     const Query query =
         i < 100 ? testing::uniform_query(random, kind) : testing::integer_query(random, kind, 3);
     SCOPED_TRACE(testing::repeat(i, query));
-    // The primitives of such queries come as near as 2^-1074 only if they meet.
+    // The primitives of these queries either meet, or stay farther apart than 2^-1074.
     EXPECT_EQ(comes_within(query, 0x1p-1074), collides(query));
     EXPECT_EQ(comes_within(query, 0), collides(query));
     if (collides(query)) continue;

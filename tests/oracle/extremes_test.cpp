@@ -148,8 +148,8 @@ TEST(Extremes, AllCoordinatesEqual) {
     }
 }
 
-// Scaled by a power of two, these coordinates would lie between the largest subnormal number and the smallest
-// normal number, where there is no double.
+// If the oracle scaled these coordinates by a power of two, they could fall between the largest subnormal
+// number and the smallest normal number, where there is no double.
 TEST(Extremes, CoordinatesThatAreRoundedToTheSmallestNormalNumber) {
   for (int exponent = -1026; exponent <= -1014; ++exponent) {
     const double z = std::ldexp(1.0, exponent);

@@ -23,8 +23,8 @@ std::string features_of(const Query& query) {
   return features ? to_text(query.kind, *features) : "none";
 }
 
-/// The features of the contact of two edges. One is (0, 0, z) (1, 0, z), and falls from z = 1 to z = -1. The
-/// other is from c to d, at rest in the plane z = 0.
+/// The features of the contact of two edges. One edge joins (0, 0, z) and (1, 0, z), and falls from z = 1 to
+/// z = -1. The other edge joins c and d, which rest in the plane z = 0.
 std::string falling_on(const Vector3<double>& c, const Vector3<double>& d) {
   return features_of(
       make_query(Kind::edge_edge, {{0, 0, 1}, {1, 0, 1}, c, d}, {{0, 0, -1}, {1, 0, -1}, c, d}));

@@ -178,7 +178,7 @@ TEST(FilterRange, DecidesWhereNothingIsNearUnderflow) {
       expect_decided({name + " times 2^" + std::to_string(exponent), stretched(query, exponent, exponent)});
 }
 
-/// The query with up to three coordinates moved by a quarter or a half of their magnitude.
+/// Moves up to three coordinates of a query, each by a quarter or a half of its magnitude.
 Query neighbour(Random& random, Query query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));

@@ -137,8 +137,8 @@ TEST(BatchFilter, ComparesBoxesAsBeforeTheFilterOfOneQuery) {
 }
 
 // With worse guesses of where to look for contact, the filter would still be right, but would leave more
-// queries to exact arithmetic, which is slow. The limit is about the number of queries that the filter leaves
-// now.
+// queries to exact arithmetic, which is slow. The limit is close to the number of queries that the filter
+// leaves undecided now.
 TEST(Filter, LeavesAsFewQueriesAsItDid) {
   std::vector<FilterStage> stages;
   for (const Query& query : hard_queries(5, 50000)) stages.push_back(filter(query));

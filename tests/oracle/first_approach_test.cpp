@@ -1,4 +1,4 @@
-// The time at which the distance first falls to a separation h > 0, by two exact methods.
+// Tests two exact methods that find the time at which the distance first falls to a separation h > 0.
 #include "oracle/exact/first_approach.hpp"
 
 #include <gtest/gtest.h>
@@ -102,9 +102,9 @@ TEST(Separation, WhatHappensAtExactlyHBeforeItFallsBelowIsNotLate) {
   EXPECT_TRUE(time.makes_late(std::nextafter(0.5, 1)));
 }
 
-// At t = 1/2, the second edge is a point at a distance of exactly h; from then on, it has the opposite
-// direction. Before t = 1/2, the distance is exactly h, too, because this point is an end of the second edge,
-// and its nearest point to the first edge.
+// The second edge turns round: at t = 1/2, it shrinks to a point, whose distance from the first edge is
+// exactly h. This point is an end of the second edge. Before t = 1/2, it is the edge's nearest point to the
+// first edge, so that the distance is exactly h then, too.
 TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   const Query query =
       with_separation(testing::make_query(Kind::edge_edge, {{0, 0, 1}, {0, 0, 1}, {0, 0, 0}, {0, 1, -1}},
@@ -116,8 +116,8 @@ TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   EXPECT_TRUE(approach->below->is(exact::Number(0.5)));
 }
 
-/// Separations of about the size of a query with coordinates up to 1, some of them exact distances of points
-/// on a grid.
+/// Separations of about the size of a query with coordinates up to 1. The last one is the exact distance of
+/// neighbouring points of a grid with integer coordinates.
 constexpr std::array separations{0.25, 0.5, 1.0};
 
 void expect_agreement(const Query& query, const std::string& repeat) {

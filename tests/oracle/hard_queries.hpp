@@ -17,7 +17,7 @@ class Hard : public Random {
  public:
   Hard(std::uint64_t seed, std::size_t index) : Random(seed, 0, index) {}
 
-  /// A number between -2^exponent and 2^exponent, with an exponent drawn from `lowest` to `highest`.
+  /// A number between -2^e and 2^e, where the exponent e is drawn between `lowest` and `highest`.
   double small(int lowest, int highest) {
     const double mantissa = uniform(-1, 1);
     return std::ldexp(mantissa, integer(lowest, highest));

@@ -30,7 +30,7 @@ using ::testing::ElementsAre;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array all_proofs{Prove::decision, Prove::time, Prove::distance};
 
-/// A vertex that falls from a height of 1 to the height `to`, onto a triangle at height 0.
+/// A triangle at height 0, and a vertex that falls from height 1 to height `to`.
 constexpr std::array<double, 24> falling(double to) {
   return {0.25, 0.25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0.25, 0.25, to, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 }
@@ -48,7 +48,7 @@ std::vector<Statement> proved(const std::string& text) {
   return statements;
 }
 
-/// A statement about a vertex and a triangle in [from, to], or if `open`, in [from, to).
+/// A statement about a vertex and a triangle over the times [from, to], or over [from, to) if `open` is true.
 Statement about(Coordinates x, double h, const char* claim, bool strict, double from = 0, double to = 1,
                 bool open = false) {
   return {.kind = "vt",
@@ -117,8 +117,8 @@ TEST(InterfaceCertificate, LeavesOutStatementsThatHaveNoProof) {
   EXPECT_EQ(text, "");
 }
 
-/// Two queries of a mesh of floats, each with a separation of its own. The second query has the vertices in
-/// reverse order.
+/// A mesh of floats with two queries that have different separations. The second query has the vertices of
+/// the first one in reverse order.
 TEST(InterfaceCertificate, IsThatOfOneQueryInAnyLayout) {
   const auto falls = falling(-1);
   const std::vector<float> start(falls.begin(), falls.begin() + 12), end(falls.begin() + 12, falls.end());

@@ -1,4 +1,4 @@
-// The functions of oracle/interface on a small stack, and in every mode of the processor's arithmetic.
+// Tests the functions of oracle/interface on a small stack, and in every mode of the processor's arithmetic.
 #include "oracle/interface/nearmiss.hpp"
 
 #include <gmock/gmock.h>

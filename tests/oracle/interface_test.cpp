@@ -272,8 +272,7 @@ TEST(Interface, VerticesAndTheStrideOfQueriesAreAddedUp) {
   EXPECT_THAT(toi, Each(0.5));
 }
 
-/// A vertex that passes at a distance of 1/2 from both the vertex (1, 0, 0) and the edge from there to (1, 1,
-/// 0).
+/// A vertex that passes the vertex (1, 0, 0) and the edge (1, 0, 0) (1, 1, 0), both at a distance of 1/2.
 constexpr std::array<double, 18> passing{0, 0, 0.5, 1, 0, 0, 1, 1, 0,  //
                                          2, 0, 0.5, 1, 0, 0, 1, 1, 0};
 

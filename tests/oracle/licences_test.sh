@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Checks the licence of every header of CGAL, Eigen and Boost that the compiler has read for the library
-# (oracle/interface/licences.md).
+# Checks the licence of every header of CGAL, Eigen and Boost that the compiler has read while it
+# built the library (oracle/interface/licences.md).
 # Usage: licences_test.sh BUILD
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
@@ -9,8 +9,8 @@ options '' "$@"
 cd "${arguments[0]}"
 headers=$(ninja -t deps | awk '/^[^ ]/ { ours = /^(ccd|oracle)\// } ours && /^ / { print $1 }' | sort -u)
 fail() { echo "FAILED: another licence: $*" >&2; exit 1; }
-# of LIBRARY LEAST: sets `read` to those headers of a library that the compiler has read. Ends the test if
-# there are fewer than LEAST.
+# of LIBRARY LEAST: sets `read` to the headers of LIBRARY that the compiler has read. Ends the test
+# if these are fewer than LEAST.
 of() {
   mapfile -t read < <(grep "^/usr/include/$1/" <<<"$headers")
   ((${#read[@]} >= $2)) || refuse "found only ${#read[@]} headers of $1, expected $2 (tools/setup builds)"

@@ -39,8 +39,8 @@ TEST(RootParity, EvenIsMissed) {
   EXPECT_FALSE(root_parity(query).collision());
 }
 
-/// Checks that the exact decision fits the roots of F, and that root parity is the parity of the number of
-/// roots, unless the origin is on the boundary (RootParity::on_boundary).
+/// Checks that the exact decision fits the roots of F. Unless the origin is on the boundary
+/// (RootParity::on_boundary), also checks that root parity is the parity of the number of roots.
 void expect_agreement(std::size_t index, const Query& query) {
   SCOPED_TRACE(testing::repeat(index, query));
   const testing::RootCount count = testing::count_roots(query);
@@ -61,8 +61,8 @@ TEST(RootParity, ARootOfAFlatPatchAtItsBorderIsOnTheBoundary) {
   }
 }
 
-// If all vertices stay in a plane or on a line, the surface whose crossings root parity counts consists of
-// flat patches, many of which touch the origin only between t = 0 and t = 1.
+// Root parity counts where a ray crosses the image of a boundary. If all vertices stay in a plane or on a
+// line, this image consists of flat patches, many of which touch the origin only between t = 0 and t = 1.
 TEST(RootParity, IsThatOfTheRootsInSpaceInAPlaneAndOnALine) {
   for (const int largest : {1, 2, 3, 1000})
     for (std::size_t i = 0; i < 600 && !HasFatalFailure(); ++i) {

@@ -107,7 +107,7 @@ TEST(Root, PartsClustersOfRoots) {
     const Polynomial complex = times_3(1) * times_3(1) + Polynomial({gap * gap});
     EXPECT_EQ(roots_in_step(inside * complex).size(), 3) << exponent;
     EXPECT_EQ(roots_in_step(inside * inside * complex).size(), 3) << exponent;
-    // The next polynomials have roots with very different distances from an end of the step.
+    // The next polynomials have roots whose distances from an end of the step are very different.
     for (const Number& end : {Number(0), Number(1)}) {
       const Polynomial from_end({end, Number(1) - Number(2) * end});
       const auto shifted = [&](const Number& a) {
@@ -156,7 +156,7 @@ TEST(OnInterval, PartsHaveTheSignsOfThePolynomialUnlessRoundingMayHaveChangedThe
     Number hi = 1;
     OnInterval on(p, lo, hi);
     for (int step = 0; step < 6; ++step) {
-      // A part of the interval in which the sign changes. The ends of the part have many bits.
+      // [from, to] is a part of the interval in which the sign changes. Its ends have many bits.
       Number from = 0;
       Number to = 1;
       for (int k = 0; k < 16; ++k) {
@@ -207,8 +207,7 @@ TEST(Root, ARationalRootIsFoundInAWideInterval) {
     }
 }
 
-// If the polynomial is far from linear, the chord gives a bad guess of the root; the interval is then cut in
-// the middle.
+// If the polynomial is far from linear, the chord gives a bad guess of the root. Then the interval is halved.
 TEST(Root, RefiningAtLeastHalvesTheInterval) {
   for (std::uint64_t i = 0; i < 100; ++i) {
     Random random(3, 0, i);
@@ -245,7 +244,7 @@ TEST(Root, SeesThatAMultipleOfItsPolynomialIsZero) {
 using AlgebraicKernel = CGAL::Algebraic_kernel_d_1<CGAL::Gmpz>;
 using Reference = AlgebraicKernel::Polynomial_1;
 
-/// A polynomial with integer coefficients, in our type and in CGAL's.
+/// One polynomial with integer coefficients, both in our type and in CGAL's.
 struct Both {
   Polynomial here;
   Reference there;
@@ -255,8 +254,8 @@ class Integers {
  public:
   explicit Integers(std::uint64_t index) : random_(1, 0, index) {}
 
-  /// A product of factors with small coefficients, some of them repeated. One product in four is scaled, and
-  /// then 1 is added, which is a slight change.
+  /// A product of factors with small coefficients, some of them repeated. One product in four is multiplied
+  /// by a large number and then slightly changed: 1 is added.
   Both polynomial(int degree) {
     Both p{Polynomial({Number(1)}), Reference(1)};
     while (p.here.degree() < degree) {
@@ -315,7 +314,7 @@ TEST(Root, AgreesWithTheAlgebraicKernel) {
         ASSERT_TRUE(roots[k - 1].is_below(roots[k]));
       }
     }
-    // The roots of the second polynomial, to be ordered among the roots of the first.
+    // Orders the roots of p among those of p q.
     std::vector<AlgebraicKernel::Algebraic_real_1> others;
     kernel.solve_1_object()(both.there, false, std::back_inserter(others));
     std::erase_if(others, [](const auto& t) {

@@ -1,4 +1,4 @@
-// Doubles with bounds of their errors never contradict exact arithmetic about signs of polynomials.
+// The signs of polynomials that are computed with doubles and error bounds never contradict exact arithmetic.
 #include "oracle/certificates/rough.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ TEST(RoughPolynomial, NeverContradictsTheExactOne) {
     exact::Polynomial p({Number(1)});
     RoughPolynomial rough{1.0};
     for (int degree = random.integer(1, 8); degree > 0; --degree) {
-      // On average, two of three roots are next to the double `root`, so these two nearly coincide.
+      // On average, two roots in three are next to the double `root`, and so nearly coincide.
       const double to = random.one_in(3) ? random.uniform() : std::nextafter(root, random.integer(0, 2));
       const double scale = std::ldexp(random.one_in(2) ? 1 : -1, random.integer(-40, 40));
       p = p * exact::Polynomial({Number(-to) * Number(scale), Number(scale)});

@@ -1,5 +1,5 @@
-// Tests the search for contact in a part of the step, for a given F with a known error. F is the polynomial
-// whose roots are the times at which the vertices are coplanar.
+// Tests the search for contact in a part of the step, for a given F and a bound of its error. F is the
+// polynomial whose roots are the times at which the vertices are coplanar.
 #include "oracle/filter/search.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ Query sliding() {
   return testing::make_query(Kind::vertex_triangle, {{-0.22, 0.25, 0}, o, a, b}, {{0.18, 0.25, 0}, o, a, b});
 }
 
-/// The Bernstein form of 40 u + 450 u² + 1000 u³ with u = t - 3/4 and an error of 1. The polynomial rises
+/// The Bernstein form of 40 u + 450 u² + 1000 u³, where u = t - 3/4. Its error is 1. The polynomial rises
 /// from -1 to 1 around the root u = 0. Its other roots are u = -0.122 and u = -0.328. The vertex is outside
 /// the triangle at the root u = -0.328, and inside at the other two.
 Bernstein<double, 4> three_roots() {

@@ -16,9 +16,9 @@
 
 namespace nearmiss::certified {
 
-/// A scalar that counts roundings. It stands for a sum of products; `count` is the largest number of
-/// roundings in any of these products. A difference of vertices, which VertexDifferences stores as a sum of
-/// two doubles, counts as one rounding.
+/// A scalar that counts roundings. Each value stands for a sum of products; its `count` is the largest number
+/// of roundings of any of these products. A difference of vertices, which VertexDifferences stores as a sum
+/// of two doubles, counts as one rounding.
 struct RoundingCount {
   int count = 0;
 
@@ -91,8 +91,8 @@ ExactVector cross(const ExactVector& v, const ExactVector& w) {
 Rational dot(const ExactVector& v, const ExactVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
 ExactVector exactly(const Vec<double>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
 
-/// Queries of several sorts: with coordinates of one magnitude, of different magnitudes, or so large or small
-/// that differences overflow or products underflow.
+/// Queries of several sorts. Their coordinates have one magnitude or different magnitudes, or are so large or
+/// small that differences overflow or products underflow.
 std::vector<Query> all_sorts(std::size_t each) {
   std::vector<Query> queries;
   for (const auto& [smallest, largest] :
@@ -107,8 +107,8 @@ std::vector<Query> all_sorts(std::size_t each) {
   return queries;
 }
 
-/// Expects every coefficient to differ from the exact coefficient by at most its error bound. Returns the
-/// largest quotient of a difference and its error bound.
+/// Expects that every coefficient differs from the exact one by at most its error bound. Returns the largest
+/// quotient of such a difference and the error bound.
 double expect_within(const Product& product, const std::array<Rational, 4>& exact) {
   double most = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -233,8 +233,9 @@ TYPED_TEST(SeparationErrors, UpperBoundsAreAboveTheDistance) {
     }
 }
 
-/// Expects each error to be at least n times its element of `sizes`. n is the coefficient, which counts
-/// roundings here; the element is an upper bound of the sum of the magnitudes of the coefficient's products.
+/// Expects that the error bound of each coefficient is at least n times its element of `sizes`. The
+/// coefficient itself is n, because it counts roundings here. Its element of `sizes` bounds the sum of the
+/// magnitudes of its products.
 void expect_room(const Product& product, const std::array<double, 4>& sizes) {
   constexpr double second_orders = 1.02;  // also covers the roundings of the error itself
   for (std::size_t i = 0; i < 4; ++i)
@@ -268,7 +269,7 @@ TEST(Separation, ErrorsHaveRoomForAllRoundings) {
   }
 }
 
-// Checks the numbers of roundings; the tests above also check the lengths of vectors.
+// Checks only the numbers of roundings. The tests above also check the lengths of vectors.
 TEST(Separation, RoundingsAreThoseOfTheTableInTheHeader) {
   const Query query = all_sorts(1)[0];
   const VertexDifferences differences(query);
@@ -298,7 +299,8 @@ TEST(CertifiedReach, AnErrorOrALongerNormalEndsItSooner) {
   Separation separation;
   separation.length = {1, 0.5, 0.25};
   separation.add({4, 0, 0, 0}, {0, 0.5, 0, 0.125});
-  // 4 - s / 2 - s³ / 8 - 1 - s / 2 - s² / 4 is zero at s = 1.687...
+  // The product minus its errors and the length is 4 - s / 2 - s³ / 8 - 1 - s / 2 - s² / 4, which is zero at
+  // s = 1.687...
   EXPECT_LE(certified_reach(separation, 1, 1, 8), 1.6875);
   EXPECT_GT(certified_reach(separation, 1, 1, 8), 1.68);
 }

@@ -47,7 +47,7 @@ bool is_of_kilometres(const Query& query) {
   return size <= 3 && farthest > 100 && farthest < 20000;
 }
 
-/// How often to decide a query: once, or NEARMISS_SLOWED times on average if it is_of_kilometres().
+/// How often a query is decided: NEARMISS_SLOWED times on average if is_of_kilometres(), otherwise once.
 int decisions(const Query& query) {
   static const double mean = number_in("NEARMISS_SLOWED");
   if (!is_of_kilometres(query)) return 1;

@@ -120,9 +120,9 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(LOADED_MIB)
-/* Takes LOADED_MIB of memory while it is loaded, and USED_MIB for each query. Macros say how the
- * former is taken: by malloc(3); by mmap(2) (MAPPED); as static data, of which STATIC bytes are written; or
- * by a child process, which maps it over addresses without access (CHILD). */
+/* Takes LOADED_MIB of memory while it is loaded, and USED_MIB for each query. A macro may choose how
+ * LOADED_MIB is taken: by mmap(2) (MAPPED); as static data, of which STATIC bytes are written (STATIC); or
+ * by a child process, which maps it over addresses without access (CHILD). Otherwise, malloc(3) takes it. */
 #define NAME "large"
 static void* taken(size_t mib) {
   void* const block = malloc(mib << 20);

@@ -1,6 +1,7 @@
-// A subject that throws an exception if a query's first coordinate is above 0.9, throws one without text if
-// it is 0.5, crashes if it is -2, and answers other queries with the macro ANSWER. With WHILE_LOADED, the
-// subject throws an exception while it is loaded.
+// A subject whose behaviour depends on the first coordinate of a query. It throws an exception if the
+// coordinate is above 0.9, throws an exception without text if the coordinate is 0.5, and crashes if it is
+// -2. It answers other queries with the macro ANSWER. With WHILE_LOADED, the subject throws an exception
+// while it is loaded.
 #include <csignal>
 #include <exception>
 #include <stdexcept>

@@ -55,7 +55,7 @@ Traced threshold(Problem& problem, const char* name) {
   return input;
 }
 
-/// Takes the two sides of a comparison left <= right, which a test made, as the two sides of the problem.
+/// Uses the two sides of a comparison left <= right as the two sides of the problem.
 void choose(Problem& problem, const Branch& comparison) {
   problem.left = Traced(comparison.left);
   problem.right = Traced(comparison.right);
@@ -135,8 +135,8 @@ Problem cubic(CubicPart part) {
   return problem;
 }
 
-/// Coefficients that are inputs, in units of B³. Their bounds also hold for computed coefficients: each bound
-/// exceeds the bound of the exact coefficient by 1/2, and rounding errors are far smaller.
+/// Coefficients that are inputs, in units of B³. The bound of a coefficient also holds if the coefficient is
+/// computed: it exceeds the bound of the exact coefficient by 1/2, which is far more than the rounding error.
 Cubic<Traced> exact_coefficients(Problem& problem) {
   Cubic<Traced> F;
   for (const auto& [coefficient, name, most] :
@@ -148,9 +148,9 @@ Cubic<Traced> exact_coefficients(Problem& problem) {
   return F;
 }
 
-/// The vectors of a pair with end points in any order. If an end point of one edge is within B* of an end
-/// point of the other edge, any two end points are within 3B* at t = 0 and within 4B* at t = 1 (motion.hpp).
-/// Here, B* = E + W = 1.
+/// The vectors of a pair whose end points may have any order. If an end point of one edge is within B* of an
+/// end point of the other edge, any two end points are within 3B* at t = 0 and within 4B* at t = 1
+/// (motion.hpp). Here, B* = E + W = 1.
 template <Kind kind>
 Pair<kind, Traced> pair_with_bound(Problem& problem) {
   auto pair = pair_of<kind>(problem, Reach::near);
@@ -164,9 +164,9 @@ Pair<kind, Traced> pair_with_bound(Problem& problem) {
   return pair;
 }
 
-/// The problem of the last comparison in `excludes_collision`, w > N·N + slack for a weight w, and the slack
-/// itself. h, the half width of the interval around the root, is an input in [0, 1], from which the slack is
-/// computed.
+/// The problem of the last comparison in `excludes_collision` (w > N·N + slack, for a weight w), and the
+/// slack. The slack is computed from h, the half width of the interval around the root, which is an input in
+/// [0, 1].
 struct Culling {
   Problem problem;
   Traced slack;

@@ -24,13 +24,13 @@ Problem configuration(Kind kind, Reach reach, ConfigurationPart part);
 
 /// Parts of the cubic (cubic.hpp): its coefficients, and its value at a time.
 enum class CubicPart : std::uint8_t { a, b, c, d, value };
-/// A part of the cubic, from rounded vectors.
+/// The problem of a part of the cubic that is computed from rounded vectors.
 Problem cubic(Kind kind, CubicPart part);
-/// A part of the cubic, from exact vectors.
+/// The problem of a part of the cubic that is computed from exact vectors.
 Problem exact_cubic(CubicPart part);
-/// The value of the cubic by Horner's rule, from exact coefficients.
+/// The problem of the cubic's value that Horner's rule computes from exact coefficients.
 Problem horner();
-/// The clearance of the cubic, from exact coefficients.
+/// The problem of the cubic's clearance that is computed from exact coefficients.
 Problem clearance_of_exact();
 
 /// The bound B (motion.hpp).
@@ -38,7 +38,7 @@ Problem bound(Kind kind);
 /// The part E + W of B: E bounds the edges at t = 0, and W the relative velocities.
 Problem extents(Kind kind);
 
-/// The bound of how far a weight moves, in the culling of vertex-edge tests (ve_culling.hpp).
+/// The bound of the change of a weight, in the culling of vertex-edge tests (ve_culling.hpp).
 Problem spread(Kind kind);
 /// The comparison of a weight with N·N plus slack, in the culling of vertex-edge tests.
 Problem culling(Kind kind);
@@ -50,9 +50,9 @@ Problem vertex_edge(Reach reach, EdgePart part);
 /// Parts of the test of two vertices (vertex_vertex.hpp): x·v and v·v; the time, for ‖v‖∞ = 1, before it is
 /// clamped to [0, 1]; the squared distance at a given time.
 enum class VertexPart : std::uint8_t { xv, vv, time, squared_distance };
-/// A part of the test of two vertices, from exact vectors.
+/// The problem of a part of the test of two vertices that is computed from exact vectors.
 Problem exact_vertices(Reach reach, VertexPart part);
-/// The squared distance of two vertices at a given time, from rounded vectors.
+/// The problem of the squared distance of two vertices at a given time, computed from rounded vectors.
 Problem vertices(Reach reach);
 
 }  // namespace nearmiss::proofs

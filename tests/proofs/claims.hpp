@@ -60,13 +60,13 @@ struct OracleClaim {
 
 std::vector<OracleClaim> oracle_claims();
 
-/// Describes the faults of a claim. A claim has no faults if all of the following hold: Gappa proves the
-/// bound `proven` in every precision (in double, with underflow), and in double no bound far below it; no
-/// result overflows; seen <= proven <= claimed; the witness has exactly the recorded error; and Gappa proves
-/// no bound below that error.
+/// Describes the faults of a claim. A claim has no faults if all of the following hold. Gappa proves the
+/// bound `proven` in every precision; in double, it proves the bound with underflow. In double, Gappa proves
+/// no bound far below `proven`, and none below the witness's error. No result overflows. seen <= proven <=
+/// claimed. The witness has exactly the recorded error.
 std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover);
 
-/// The faults of all claims with their witnesses. Uses two threads.
+/// The faults of all claims, each checked with its witness. Uses two threads.
 std::vector<std::string> faults(const std::vector<CcdClaim>& claims, const Witnesses& witnesses);
 
 /// Describes the faults of a claim about oracle/. A claim has no faults if seen <= proven <= claimed, and the

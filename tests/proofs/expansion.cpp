@@ -33,7 +33,7 @@ Expansion with_underflow(Expansion terms) {
   return terms;
 }
 
-/// Goes through a program's instructions, operands first.
+/// Expands the result of an instruction of a program, after it has expanded the operands.
 class Expander {
  public:
   Expander(const Program& program, const Roundings& arithmetic)
@@ -104,7 +104,7 @@ class Expander {
     return with_underflow(rounded(std::move(terms), 1));
   }
 
-  /// |x - y| of two inputs.
+  /// The expansion of |x - y|, where x and y are inputs.
   [[nodiscard]] Expansion magnitude_of_difference(const Instruction& one) const {
     const Instruction& inside = at(one.left);
     const bool is_plain = inside.operation == Operation::subtract &&
@@ -113,7 +113,8 @@ class Expander {
     if (!is_plain) throw std::logic_error("found a magnitude of something other than a difference of inputs");
     return {{1, {{steepest, 1}}, 1, 0}};
   }
-  /// The expansion of a maximum of magnitudes of differences: that of the one with more roundings.
+  /// The expansion of the larger of two magnitudes of differences. It has as many roundings as the magnitude
+  /// with more roundings.
   Expansion largest_magnitude(const Instruction& one) {
     const Expansion a = of(one.left);
     const Expansion b = of(one.right);
@@ -135,7 +136,8 @@ class Expander {
 
 // --- bounds over times ------------------------------------------------------------------------------------
 
-/// A polynomial in some times: maps the powers of t and 1 - t for each time t to a coefficient.
+/// A polynomial in several times. The key of a term lists the powers of t and 1 - t for each time t; the
+/// value is the term's coefficient.
 using InTimes = std::map<std::vector<int>, Rational>;
 
 int degree_in(const InTimes& polynomial, std::size_t time) {
@@ -145,7 +147,8 @@ int degree_in(const InTimes& polynomial, std::size_t time) {
   return degree;
 }
 
-/// Multiplies terms by (t + (1 - t)) until every term has the given degree.
+/// Multiplies terms by (t + (1 - t)), where t is the given time, until every term has the given degree in t
+/// and 1 - t.
 InTimes elevated(const InTimes& polynomial, std::size_t time, int degree) {
   InTimes all;
   for (const auto& [powers, c] : polynomial) {

@@ -15,7 +15,7 @@ inline constexpr double u = 0x1p-53;  ///< the largest relative rounding error o
 using Rational =
     boost::multiprecision::number<boost::multiprecision::gmp_rational, boost::multiprecision::et_off>;
 
-/// A double word. Double words can be divided only by 3, as in `third`.
+/// A double word. A double word can be divided only by 3, by the function `third`.
 struct WordNumber {
   certified::DoubleWord x;
 

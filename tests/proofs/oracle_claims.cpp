@@ -17,7 +17,8 @@ using namespace certified;
 
 // --- the exact errors at given inputs ----------------------------------------------------------------------
 
-/// The relative error, in units of u, of the product of the rounded differences 1 - value of all inputs.
+/// The relative error, in units of u, of a product whose factors are rounded. The factors are 1 - x for all
+/// inputs x.
 double seen_leaves(const Inputs& inputs) {
   Rational exact = 1;
   Rational rounded = 1;
@@ -91,8 +92,8 @@ double seen_slope_rounding(const Inputs& in) {
 /// of a coefficient.
 double seen_slope_growth(const Inputs& in) { return 3 * seen_slope(in); }
 
-/// The error of v + S (d - t), the value of F at a double d by its value v and slope S at t, in units of u
-/// (|v| + |S (d - t)|).
+/// The error of v + S (d - t), in units of u (|v| + |S (d - t)|). v + S (d - t) is the value of F at a double
+/// d, computed from its value v and slope S at t.
 double seen_secant(const Inputs& in) {
   const double v = in.at("v");
   const double S = in.at("S");

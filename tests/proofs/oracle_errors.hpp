@@ -12,7 +12,7 @@
 
 namespace nearmiss::proofs {
 
-/// Results of templates at given inputs, computed in Number and exactly.
+/// Evaluates the results of templates at given inputs, both in the arithmetic of Number and exactly.
 ///
 /// The inputs are components of vectors ("b0y"), lower halves of double words ("b0y.lo", 0 if not given), and
 /// times t and s.
@@ -23,8 +23,8 @@ class ResultsAt {
 
   /// The largest |computed - exact| of all results, in units of `unit`.
   [[nodiscard]] double error(const Inputs& inputs, const Rational& unit) const;
-  /// The largest magnitude, in units of `unit`, among the results of all operations that have a component of
-  /// every vector as a factor.
+  /// The largest magnitude, in units of `unit`, of those intermediate results that have a component of every
+  /// vector as a factor.
   [[nodiscard]] double reach(const Inputs& inputs, const Rational& unit) const;
 
  private:
@@ -43,9 +43,9 @@ Rational w_of(const Inputs& inputs);
 /// M (step_part.hpp): the sum of A_k w_k over all three components.
 Rational M_of(const Inputs& inputs);
 
-/// Draws components of some vectors in [-1, 1] and two times t <= s. The components are 0 or ±1, have nearly
-/// the same magnitude, or have any magnitudes. With `words`, each component also has a lower half within half
-/// an ulp.
+/// Draws components of some vectors in [-1, 1] and two times t <= s. The components are 0 or ±1, or have
+/// magnitudes near 1, or are distributed uniformly. With `words`, each component also has a lower half within
+/// half an ulp.
 Inputs draw_vectors(Random& random, const std::string& vectors, bool words = false);
 
 }  // namespace nearmiss::proofs

@@ -199,9 +199,9 @@ double proven_slope_growth() {
       factors.script(quotient(grown, factors.product(roundings_of_slope_bound, u)) + " in ?"));
 }
 
-// In v + S g, the value of F beside a time, the term S g is rounded three times. The term R g of the bound
-// (neighbours.hpp) loses up to four roundings, and R is at most |S|. The bound's term for these seven
-// roundings is itself rounded at most six times.
+// v + S g is the value of F at a distance g from a time. The term S g is rounded three times. The term R g of
+// the bound (neighbours.hpp) loses up to four roundings, and R is at most |S|. The bound's term for these
+// seven roundings is itself rounded at most six times.
 double proven_secant_rounding() {
   Factors factors;
   const std::string missed =

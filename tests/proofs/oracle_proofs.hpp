@@ -13,14 +13,15 @@ namespace nearmiss::proofs {
 /// components of the vectors are exact.
 template <class Real>
 double proven_rounding(Results results);
-/// The multiple of u w or u M that covers the errors of products of this many components, each rounded once.
+/// The multiple of u w or u M that covers the errors of products of `leaves` components, each of which has
+/// been rounded once.
 double proven_leaves(int leaves, Results results);
-/// The factor of l and L that compensates for the roundings of the bound that contains them.
+/// The factor by which l and L must be multiplied in a bound, to compensate for the roundings of the bound.
 double proven_leaf_growth();
 /// How many times H must be added to a bound to cover underflow.
 double proven_underflow_products();
-/// The largest magnitude of results of operations that have this degree in the components, divided by the
-/// computed w or M, which may be rounded down.
+/// The largest magnitude of those intermediate results that have the given degree in the components, divided
+/// by the computed w or M, which may be rounded down.
 double proven_headroom(Results results, int degree);
 
 /// The factor that compensates for the roundings in `error_near`.
@@ -38,8 +39,8 @@ double proven_slope_rounding();
 /// How many times the error of a coefficient enters a value of `derivative`.
 double proven_slope_growth();
 
-/// The rounding error of v + S g in `neighbours_of_root`, the value of F at a distance g from t by its value
-/// v and slope S at t, in units of U (|v| + |S| g).
+/// The rounding error of v + S g in `neighbours_of_root`, in units of U (|v| + |S| g). v + S g is the value
+/// of F at a distance g from t, computed from its value v and slope S at t.
 double proven_secant_rounding();
 
 /// The rounding error of b + x (e - b), a time in the part [b, e] of the step, in units of 2^-52.

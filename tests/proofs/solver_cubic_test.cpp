@@ -1,6 +1,6 @@
 // Searches for problems that come near the bounds in the proof of solve_cubic. The coefficients are taken as
-// exact, so only the errors of the solver remain: m, which the computed nodes cause, and h, that of Horner's
-// rule.
+// exact, so only the errors of the solver remain: m, which the computed nodes cause, and h, which Horner's
+// rule causes.
 #include "ccd/wang/cubic.hpp"
 
 #include <gtest/gtest.h>
@@ -77,7 +77,7 @@ Coefficients drawn(Random& random) {
   Coefficients k{};
   for (std::size_t i = 0; i < 4; ++i) k[i] = snapped(draw_number(random, sizes[i]));
   if (random.one_in(2)) return k;
-  // Makes two critical points, near each other or not.
+  // Makes two critical points. Half of the time, they are near each other.
   const double t = random.uniform();
   const double other =
       random.one_in(2) ? t + random.uniform(-1, 1) * random.log_uniform(1e-6, 1) : random.uniform();
@@ -151,8 +151,9 @@ double horner(double u) {
   return 6 * growth(u, 6) + 18 * growth(u, 5) + 18 * growth(u, 3) + 6 * growth(u, 1);
 }
 
-/// The amount by which F between two nodes comes nearer to 0 than F̂, the computed F, does at both nodes,
-/// divided by its bound h + m. If this amount reached |F̂|, a root could be missed.
+/// Let F̂ be the computed F. Between two nodes, F may come nearer to 0 than F̂ does at both nodes. Returns
+/// the largest such difference, divided by its bound h + m. If the difference reached |F̂|, a root could be
+/// missed.
 double nearer_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const Cubic<double> F = cubic<double>(k);

@@ -19,8 +19,9 @@ Number growth(const Number& u, int k) {
 }
 
 /// Errors of `solve_quadratic` (quadratic.hpp), whose times t are nearly the roots t' of the polynomial with
-/// c' in place of c: the relative difference of c' from c; θ, that of t from t'; and |t' - t| if t' or t is
-/// in [0, 1]. The leading coefficient is exact, or is rounded once, as a cubic's 3a is.
+/// c' in place of c. `constant` is the relative difference of c' from c. `factor`, called θ there, is the
+/// relative difference of t from t'. `time` is |t' - t| if t' or t is in [0, 1]. The leading coefficient is
+/// exact, or is rounded once, as a cubic's 3a is.
 template <class Number>
 struct QuadraticErrors {
   Number constant, factor, time;

@@ -66,7 +66,7 @@ TEST(ProofsSolverOrders, CullingHasAllOrders) {
       holds(normal * edges * W * power(u + 1, 11) * root3 - RationalFunction(root3 * 36), u * spread_error));
 }
 
-// The relative vectors have errors of 4 u at a time, and the wider scalar has an epsilon of 4 u².
+// At every time, the relative vectors have errors of 4 u. The wider scalar has an epsilon of 4 u².
 TEST(ProofsSolverOrders, CullingInAWiderScalarHasAllOrders) {
   const auto wide = [&](int roundings) { return power(u * u * 4 + 1, roundings); };
   const auto weights = [&](int k) { return power(u + 1, k) * wide(20) - 1; };
@@ -92,9 +92,9 @@ TEST(ProofsSolverOrders, LeastPsiHasAllOrders) {
   EXPECT_TRUE(holds(needed(1) - needed(0), psi(1) - psi(0)));
 }
 
-// Steps (2) and (3) of the proof of solve_cubic, with the error h of Horner's rule and coefficients of at
-// most 6, 18, 18, 6. The nodes determine μ: Bernstein coefficients, neighbouring numbers and ineffective
-// steps require less.
+// Checks steps (2) and (3) of the proof of solve_cubic. h is the error of Horner's rule; the coefficients are
+// at most 6, 18, 18 and 6. The errors of the nodes determine μ: Bernstein coefficients, neighbouring numbers
+// and ineffective steps require only smaller values of μ.
 TEST(ProofsSolverOrders, NothingElseAsksForMoreOfMu) {
   const RationalFunction scale = power(u + 1, 15);  // growth of computed coefficients
   const RationalFunction h =

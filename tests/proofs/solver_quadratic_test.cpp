@@ -96,7 +96,7 @@ TEST(ProofsSolverQuadratic, HoldsForAllNumbersOfThreeBits) {
   EXPECT_GT(worst.factor, 0.1);
 }
 
-/// The largest distance `which` that the search finds.
+/// The largest value of the member `which` of Distances that the search finds.
 double highest_distance(int bits, double Distances::*which) {
   const MpfrFloat::PrecisionScope precision(bits);
   const auto rounded = [](QuadraticCoefficients p) {

@@ -31,8 +31,8 @@ def about(kind, x, h, claim, strict, from_=0, to=1, is_open=False):
 
 class Certificates(unittest.TestCase):
     def for_queries(self, function):
-        """Calls function(kind, x, h) for queries of several families. No query has
-        exactly the smallest distance h."""
+        """Calls function(kind, x, h) for queries of several families. In no query is the smallest
+        distance exactly h."""
         for family in FAMILIES:
             for kind in ('vt', 'ee'):
                 for x, h in zip(*nearmiss.queries(family, kind, 12)):

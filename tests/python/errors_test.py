@@ -1,5 +1,5 @@
-"""Tests which calls the Python package refuses, with which messages, and that other threads run during a
-call."""
+"""Tests which calls the Python package refuses, and with which messages. Also tests that other
+threads run during a call."""
 
 import itertools
 import signal

@@ -64,8 +64,9 @@ def compare(name, count, ask_c, ask_python):
 
 
 def measure(name, kind, number, array, *rest, numbers=1, dtype=np.int8):
-    """Compares functions that give `numbers` numbers for each query. `rest` are the arguments of the C
-    function before and after the arrays for these numbers."""
+    """Compares functions that give `numbers` numbers for each query. `rest` has two lists of
+    arguments of the C function: those before the arrays for these numbers, and those after
+    them."""
     asked = queries_of(number, array)
     before, behind = rest or ([], [])
 

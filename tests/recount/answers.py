@@ -121,8 +121,8 @@ def _numbers(kind, count):
 
 
 def _factors(nearmiss, seed, counts):
-    """Maps kind, then (family, number) of a query, to the values of its factors, which are properties
-    that some families vary from query to query."""
+    """Maps a kind, and then the family and the number of a query, to the query's values of
+    factors. Factors are properties that some families vary from query to query."""
     factors = {kind: {} for kind in KINDS}
     for kind in KINDS:
         for name, count in counts[kind].items():
@@ -173,7 +173,8 @@ class Known:
 
 
 def ratios(lo, hi, bound):
-    """Enclosures of distance / bound, which is infinite if the bound is 0, and 0 if the bound is infinite."""
+    """Enclosures of distance / bound. The ratio is infinite if the bound is 0, and 0 if the bound
+    is infinite."""
     slack = 1e-15  # more than the rounding error of one division
     with np.errstate(divide='ignore', over='ignore', invalid='ignore'):
         ratio_lo, ratio_hi = lo / bound * (1 - slack), hi / bound * (1 + slack)

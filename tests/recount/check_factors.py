@@ -27,7 +27,8 @@ def check_common_factors(comparison, where, report, answers):
 
 
 def check_sizes(comparison, where, report, answers):
-    """Checks the counts of answers at all sizes outside the range of sizes at which a subject is right."""
+    """A subject is right in a range of sizes. Checks the counts of its answers at all other
+    sizes."""
     for row in report.get('sizes', []):
         subject = row['subject']
         kinds = answers.kinds(subject) if row['kind'] == 'all' else (row['kind'],)
@@ -64,8 +65,9 @@ NAMES = ('collisions', 'false_negatives', 'others', 'false_positives')
 
 
 def _counts(answers, subject, kind, family=None):
-    """Counts the answers to the queries of a family, or of all families with factors. The keys of the
-    result are '' for all these queries, each value of a factor, and each pair of values."""
+    """Counts the answers to the queries of a family, or of all families with factors. The result
+    has a count for each value of a factor, a count for each pair of values, and a count for all
+    these queries, whose key is ''."""
     asked = answers.asked[subject, kind]
     counts = {'': Counter()}
     for i, own in enumerate(answers.family[kind]):

@@ -13,8 +13,8 @@ from tally import Tally
 sys.path.append(str(Path(__file__).resolve().parents[2] / 'tools' / 'certificates'))
 from check import Refused, Statement, check  # pylint: disable=wrong-import-position
 
-# Maps each list of extreme cases to the histogram of the quantity that is extreme, and to the field
-# of a case with this quantity.
+# Maps each list of extreme cases to two names: the histogram of the extreme quantity, and the
+# field of a case that has this quantity.
 KEPT = {
     'farthest': ('fp_distance', 'ratio'),
     'earliest': ('early', 'error'),

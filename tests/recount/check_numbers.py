@@ -10,8 +10,8 @@ SOLVED = 1e-9  # relative error of an equation's solution, and of values compute
 
 
 def quantile(enclosed, part, largest):
-    """The ranges in which the ends of a quantile's bin may be. The bin ends at its upper border, or at
-    the largest number, `largest`, if this is less."""
+    """The range of the lower end of a quantile's bin, and the range of the upper end. The upper
+    end is the bin's upper border or the largest number, `largest`, whichever is less."""
     bins = enclosed.quantile_bins(part)
     first, last = bins or (0, 0)
     lower = np.concatenate(([0], BORDERS))

@@ -64,7 +64,8 @@ class Impact:
 
     @property
     def unsafe_step(self):
-        """Whether the step is `committed`, although it was promised to be free of contact."""
+        """Whether the rounded step has contact before its end (`committed`), although it was
+        promised to be free of contact."""
         return self.committed & (self.sort == 'free-step')
 
 
@@ -117,8 +118,9 @@ def _committed(times, judged, time, own, in_float):
 
 
 def _where(is_there, lo, hi):
-    """Enclosures of differences from t* if `is_there`, otherwise NaN. The enclosures are cut off below
-    0, and widened by the rounding errors of the differences."""
+    """Encloses differences from t* between `lo` and `hi` where `is_there` is true; gives NaN
+    elsewhere. Negative ends become 0. The enclosures are widened by the rounding errors of the
+    differences."""
     return Enclosed(
         np.where(is_there, np.maximum(lo, 0) * (1 - ROUNDING), np.nan),
         np.where(is_there, np.maximum(hi, 0) * (1 + ROUNDING), np.nan),
@@ -200,7 +202,7 @@ class Times:
 
     @property
     def errors(self):
-        """The distances of the times from t*, before or after it."""
+        """Enclosures of |time - t*|."""
         return Enclosed.joined([self.early, self.after])
 
 

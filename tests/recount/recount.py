@@ -58,8 +58,8 @@ def check_cases(comparison, found, cases, counts, seed):
 
 
 def note_either_way(comparison, answers):
-    """Counts enclosures that contain a bin's border or a distance bound, so that two results are allowed;
-    for comparison, also counts all false positives and times."""
+    """Counts the cases in which two results are allowed, because an enclosure contains a bin's
+    border or a distance bound. For comparison, also counts all false positives and all times."""
     for subject in answers.subjects:
         tally = Tally.of(answers, subject, KINDS)
         for name, enclosed in tally.enclosed.items():

@@ -15,8 +15,8 @@ ON_REQUEST = {'committed', 'unknown'}  # failures that count only with --fail-on
 
 @dataclass
 class Tally:
-    """Counters of one subject for some queries, the ratios of distance to bound of its false positives,
-    and its times of impact."""
+    """The results of one subject for some queries: counters, the ratios of distance to bound of
+    the false positives, and times of impact."""
 
     subject: str
     queries: int

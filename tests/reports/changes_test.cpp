@@ -126,8 +126,8 @@ TEST(Changes, AFewFarFalsePositivesAreNoticed) {
   EXPECT_EQ(unclaimed.rates[0].what, "false positives beyond wang's bound (no claim)");
 }
 
-// For family a, the p-value is 2 / 2^13, between 1/5 and 1/4 of the risk: significant in four comparisons,
-// but not if the sum over families is a fifth one.
+// For family a, the p-value is 2 / 2^13, which is between 1/5 and 1/4 of the risk. So the change is
+// significant among four comparisons, but not if the sum over families is a fifth comparison.
 TEST(Changes, ASumOverFamiliesIsAComparisonToo) {
   const auto with = [](std::uint64_t in_a, std::uint64_t in_b) {
     return campaign("1", {{{"basic", Kind::edge_edge, "a"}, counts(10000, 10000, in_a, 0)},

@@ -134,7 +134,8 @@ TEST(RightRange, EndsWhereMissesBegin) {
 }
 
 TEST(RightRange, IsNotMeasuredByFalsePositivesWhereEverythingIsMissed) {
-  // Conservative advancement may step over small primitives, and then reports none of them.
+  // Conservative advancement may step over small primitives. Then it reports no query that has small
+  // primitives.
   const auto below = [](int x, int /*i*/) { return x < -9; };
   const auto reported = [](int x, int i) { return x >= -9 && i < 16; };  // of 40
   EXPECT_THAT(range_of(answers(Kind::edge_edge, 40, below, reported)).exponents, Optional(Pair(-9, 30)));
@@ -167,7 +168,7 @@ TEST(RightRange, IsNotSeenInMissesThatAreRareEverywhere) {
   // One collision in 60 is missed, whatever the size is. Then four sizes in a row without a miss say nothing.
   const auto rare = [](int x, int i) { return (x + 30) % 5 == 0 && i == 0; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 12, rare, never)).exponents);
-  // Nor does a single miss say anything about sizes.
+  // A single miss says nothing about sizes, either.
   const auto once = [](int x, int i) { return x == -12 && i == 0; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 12, once, never)).exponents);
 }

@@ -39,7 +39,8 @@ class HistoryOfNights : public testing::TemporaryFolder {
     return list;
   }
 
-  /// Writes the report of a night. Its baseline is a run of the day `baseline_until`, or none for 0.
+  /// Writes the report of a night. The baseline is a run of the day `baseline_until`; there is no baseline if
+  /// this is 0.
   void write_night(int day, const Said& said, int baseline_until = 0) {
     const auto date = [](int of) { return fmt::format("2026-11-{:02}T22:00:00Z", of); };
     ordered_json report{
@@ -129,7 +130,8 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
       HasSubstr("2026-11-09  FAIL  1,000  mine: 1 new way to fail: false-negative, a; mine: version"));
 }
 
-// The subject's code seems to stay the same, as for a program (pipe:...), whose code nearmiss does not know.
+// The subject's code seems to stay the same. This is always so for a program (pipe:...), because nearmiss
+// does not know its code.
 TEST_F(HistoryOfNights, TellsAnotherFailureOfTheSameCodeAfterARepair) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1", .seen = {"a"}, .created = {"a"}}, 1);

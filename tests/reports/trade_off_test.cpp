@@ -106,8 +106,8 @@ Statistics farthest_at(const std::map<std::string, double>& parts) {
   return statistics;
 }
 
-/// The power of the scalars' ε that is fitted to a ladder's distances over all families; null if there is
-/// none.
+/// The fit of a power of the scalars' ε to the distances of a ladder over all families; null if there is no
+/// fit.
 nlohmann::ordered_json fit(const std::map<std::string, double>& parts) {
   const auto all = ladder_json(farthest_at(parts))["fits"];
   return all.empty() ? nlohmann::ordered_json() : all[0];

@@ -39,7 +39,8 @@ class Failure(Exception):
 
 
 def without(value, subject):
-    """A report without times, and without everything about `subject`, unless this is None."""
+    """A report without times. Unless `subject` is None, everything about this subject is left out,
+    too."""
     if isinstance(value, dict):
         return {
             key: without(each, subject)

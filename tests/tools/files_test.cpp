@@ -21,7 +21,7 @@ using testing::CommandLine;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 
-/// A prefix for commands with which file permissions hold even for root.
+/// With this prefix, a command must obey file permissions even if root runs it.
 const std::string as_reader = geteuid() == 0 ? "setpriv --bounding-set=-dac_override" : "";
 
 TEST_F(CommandLine, AFileBesideItsPlaceIsTheUsers) {

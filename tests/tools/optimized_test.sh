@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Checks that no function is both in OBJECTS, which are compiled with less optimization, and in FAST_OBJECTS,
-# those of ccd/ and oracle/: at link time, the slower copy could replace the faster one.
+# Checks that OBJECTS, which are compiled with less optimization, and FAST_OBJECTS, the objects of
+# ccd/ and oracle/, have no function in common: at link time, the slower copy of such a function
+# could replace the faster one.
 # Usage: optimized_test.sh OBJECTS FAST_OBJECTS, each a list separated by blanks
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"

@@ -13,7 +13,8 @@ using ::testing::HasSubstr;
 
 class PastedTest : public testing::CommandLine {
  protected:
-  /// Copies the checker of certificates, which the printed tests in Python import.
+  /// Copies the checker of certificates into the test's folder, because the printed tests in Python import
+  /// it.
   void SetUp() override { std::filesystem::copy_file(NEARMISS_CHECKER, file("check.py")); }
 
   /// Whether a command in the test's folder succeeds. Writes the command's output to text.txt.
@@ -30,7 +31,7 @@ class PastedTest : public testing::CommandLine {
     return to_line(parse_line(Kind::vertex_triangle, numbers, arguments));
   }
 
-  /// The query that the printed test passed to the detector, which wrote it to text.txt.
+  /// The query that the printed test passed to the detector. The detector has printed this query to text.txt.
   [[nodiscard]] std::string printed_numbers() const {
     return to_line(parse_line(Kind::vertex_triangle, read("text.txt"), "text.txt"));
   }
@@ -64,8 +65,8 @@ class PastedTest : public testing::CommandLine {
     return succeeds("./test");
   }
 
-  /// Expects that the tests in C++ and in Python both pass, or both fail if `pass` is false, with a detector
-  /// that returns `answer` and `time`.
+  /// Runs the tests in C++ and in Python with a detector that returns `answer` and `time`. Expects that both
+  /// tests pass or, if `pass` is false, that both fail.
   void expect_both(bool pass, const Tests& tests, const std::string& name, bool answer,
                    const std::string& time = "0") const {
     const bool is_number = time != "nan";
@@ -208,7 +209,7 @@ TEST_F(PastedTest, IsWrittenInKnownLanguagesOnly) {
 
 class Certified : public CommandLine {
  protected:
-  /// The output of check.py for `certificates`, lines with one certificate each.
+  /// The output of check.py for `certificates`, a text with one certificate on each line.
   [[nodiscard]] std::string checked(const std::string& certificates) const {
     write("certificates.jsonl", certificates);
     const std::string command = "cd " + file("").string() + " && python3 " NEARMISS_CHECKER;

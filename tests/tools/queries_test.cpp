@@ -21,7 +21,7 @@ TEST_F(CommandLine, VerdictPrintsTheDistanceBoundAndWhoseItIs) {
   write("q.vt", hit + miss);
   const std::string wangs = run("verdict --kind vt --subject wang --distance-bound q.vt").out;
   EXPECT_THAT(wangs, MatchesRegex("1 proximity 0x1p-1 0x[^ ]* claimed\n0 0x[^ ]* claimed\n"));
-  // basic claims no bound, so nearmiss prints wang's bound for the queries that basic reports.
+  // basic claims no distance bound. So if basic reports a query, nearmiss prints wang's distance bound.
   std::string expected = wangs;
   for (auto at = expected.find("claimed"); at != std::string::npos; at = expected.find("claimed"))
     expected.replace(at, 7, "wang");
@@ -241,8 +241,8 @@ TEST_F(SeparationOption, AReportSaysThatOfEachRun) {
 
 class Vertices : public testing::CommandLine {
  protected:
-  /// Writes queries of a vertex that passes the edge from (1, -1, 0) to (1, 1, 0) at a distance of 1 (q.ve),
-  /// and the edge's first end at a distance of √2 (q.vv).
+  /// Writes two queries of one moving vertex. In q.ve, it passes the edge from (1, -1, 0) to (1, 1, 0) at a
+  /// distance of 1. In q.vv, it passes the first end of this edge at a distance of √2.
   void SetUp() override {
     write("q.ve", "0 0 1  1 -1 0  1 1 0   2 0 1  1 -1 0  1 1 0\n");
     write("q.vv", "0 0 1  1 -1 0   2 0 1  1 -1 0\n");
@@ -342,7 +342,7 @@ TEST_F(Vertices, BecomeTests) {
 
 class Convert : public CommandLine {
  protected:
-  /// The queries and truths in a folder or file, converted to the format "plain".
+  /// The queries and truths of the cases in a folder or file, as lines of the format "plain".
   [[nodiscard]] std::string plain(const std::string& path) const {
     std::filesystem::remove_all(file("again"));
     expect_code(0, "convert " + path + " -o again");

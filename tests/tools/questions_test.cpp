@@ -140,9 +140,9 @@ class Questions : public CommandLine {
     EXPECT_TRUE(all["findings"].empty());
   }
 
-  /// Takes the query of the simplest failure that `command` finds. Expects that the same function, asked only
-  /// this query, fails again, and that the function without a defect, which the command `right` asks, is
-  /// right. Expects that the checker accepts the failure's certificate.
+  /// Takes the query of the simplest failure that `command` finds. Expects that the same function fails again
+  /// if it is asked only this query. Expects that the function without a defect, which the command `right`
+  /// asks, answers this query correctly. Expects that the checker accepts the failure's certificate.
   void expect_finding(const std::string& command, const std::string& right,
                       const std::string& failure) const {
     const json finding = json_of(1, command + "--cases 2000")["findings"][0];

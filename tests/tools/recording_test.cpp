@@ -28,7 +28,8 @@ class Recording : public CommandLine {
     return json_of(code, "replay " + files + " --as-answered")["subjects"]["recorded"]["vt"];
   }
 
-  /// Records the answers in `lines`, made by `falling`, and judges the answers as `judged` does.
+  /// Records the answers in `lines`, each of which falling() has made, and judges the answers as `judged`
+  /// does.
   [[nodiscard]] nlohmann::json judged_lines(int code, const std::string& lines) const {
     write("lines", lines);
     EXPECT_EQ(record("0 lines <lines"), 0);
@@ -118,8 +119,8 @@ TEST_F(Recording, ThatIsCutInMidRecordHasTheRest) {
 }
 
 TEST_F(Recording, OfAShorterOrLongerStepIsJudgedThere) {
-  // Contact is at t = 1/2, after tmax = 1/4, so the answers "no" are right. If tmax is 3/4 or 5/4, these
-  // answers are misses.
+  // The first contact is at t = 1/2. If tmax is 1/4, the contact comes too late, so the answers "no" are
+  // right. If tmax is 3/4 or 5/4, these answers are misses.
   ASSERT_EQ(record("20 tmax 0.25"), 0);
   auto counts = judged(0);
   EXPECT_EQ(counts["queries"], 20);
@@ -143,7 +144,7 @@ std::string falling(const std::string& z0, const std::string& z1, const std::str
 }
 
 TEST_F(Recording, EachAnswerToTheSameQueryIsJudged) {
-  // As in a line search, later steps (tmax) are shorter. Some answers have no time.
+  // As in a line search, a query is asked again with a shorter step (tmax). Some answers have no time.
   const auto counts =
       judged_lines(1, falling("1.1", "-1.2", "0.7", 1, "0.3") + falling("1.1", "-1.2", "0.61", 1, "0.55") +
                           falling("1.1", "-1.2", "0.61", 1, "0.55") + falling("1", "0.5", "0.3", 1, "nan") +

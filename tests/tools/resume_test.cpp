@@ -1,6 +1,6 @@
 // Tests that a campaign gives the same report even if it is interrupted, killed, divided into shards, or run
-// by more threads. Also tests two versions of a CCD: their names, fixed and broken queries, and the replay of
-// a broken query.
+// by more threads. Also tests the comparison of two versions of a CCD: their names, the queries that the
+// second version fixes or breaks, and the replay of a broken query.
 #include <chrono>
 #include <csignal>
 
@@ -24,8 +24,9 @@ class Resume : public CommandLine {
     return report;
   }
 
-  /// Starts or resumes a campaign in a.db, waits until it has saved results and for the time `after`, and
-  /// sends it a signal. Returns the campaign's exit code, or -1 if the signal ended the process.
+  /// Starts or resumes a campaign in a.db. Waits until the campaign has saved results, then waits for the
+  /// time `after`, and sends it a signal. Returns the campaign's exit code, or -1 if the signal ended the
+  /// process.
   [[nodiscard]] int run_until_a_signal(const std::string& command, std::chrono::milliseconds after,
                                        int signal) const {
     Background process(file(""), command + " --db a.db --resume");
@@ -143,7 +144,7 @@ TEST_F(Resume, OneProcessWritesAStore) {
   expect_refused("fuzz --time 1s --db a.db --resume", {"a.db: another process is writing it"});
   first.stop(SIGTERM);
   EXPECT_EQ(first.code(), 130);
-  // --time limits the time of a campaign in all, so a campaign that has spent its time does nothing.
+  // --time limits the total time of a campaign, so resuming a campaign that has spent its time does nothing.
   expect_code(0, "fuzz --time 1s --db a.db --resume");
   const json report = timeless_report("a.db");
   expect_code(0, "fuzz --time 1s --db a.db --resume");

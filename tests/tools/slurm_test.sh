@@ -93,7 +93,8 @@ daemons+=($!)
 idle() { [[ $(sinfo --noheader --format=%T) == idle ]]; }
 wait_until idle || skip "Slurm does not start: $(grep -h fatal "$folder"/slurm*.log || tail -qn 1 "$folder"/slurm*.log)"
 
-# Makes the expected report: that of the campaign on one machine, with an earlier campaign as the baseline.
+# Makes the expected report: runs the campaign on one machine, and reports it with an earlier
+# campaign as the baseline.
 fuzz=(--cases 30000 --family uniform,small-integer,planted --subject basic,wang)
 expect_code() {
   local code=0

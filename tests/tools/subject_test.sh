@@ -17,7 +17,7 @@ cd "$folder"
 failures=0
 fail() { echo "failed: $1"; ((++failures)); }
 
-# The library in the form that a user has: compiled, with files for pkg-config and CMake.
+# Makes the library as a user would have it: compiled, with files for pkg-config and CMake.
 mkdir -p lib/cmake/foreign
 eigen=$(pkg-config --variable=includedir eigen3)/eigen3
 [[ -d $eigen ]] || eigen=/usr/include/eigen3

@@ -90,7 +90,7 @@ TEST_F(CommandLine, DetectorsOfAPluginAreDescribed) {
 class ReplayOfASubject : public CommandLine {
  protected:
   /// Runs a campaign with a subject that misses collisions. Expects that the command in the first finding
-  /// replays the miss, and returns the options of this command.
+  /// replays the miss. Returns the options of this command.
   [[nodiscard]] std::string options(const std::string& subject) const {
     expect_code(1, "fuzz --family small-integer --cases 100 --db a.db --subject '" + subject + "'");
     const std::string again = report_of("a.db", 1)["findings"][0]["again"];
@@ -162,7 +162,8 @@ TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
     EXPECT_GT(count(keeping["faults"], "contract"), 0U);
     EXPECT_EQ(count(keeping["faults"], "contract") + count(beyond["faults"], "contract"),
               count(keeping, "queries"));
-    // Queries beyond this contract have contact at the start, so all are collisions; the plug-in misses each.
+    // The queries that break this contract have contact at the start, so all are collisions. The plug-in
+    // misses all of them.
     EXPECT_EQ(count(beyond, "false_negatives"), count(keeping["faults"], "contract"));
   }
 }

@@ -78,7 +78,7 @@ TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
   const Output output = run("oracle --kind vt --distance q.vt", before);
   EXPECT_EQ(output.error, says);
   EXPECT_EQ(output.out, run("oracle --kind vt --distance q.vt").out);
-  // nearmiss also corrects the arithmetic of a campaign's threads and of its plug-ins' processes.
+  // nearmiss also sets this arithmetic in the threads of a campaign, and in the processes of its plug-ins.
   const auto positives = [&](const std::string& preload) {
     const json subjects =
         json_of(1,
@@ -256,8 +256,8 @@ TEST_F(CommandLine, AnInterruptEndsACommandWhoseOutputHasNoReader) {
 }
 
 TEST_F(CommandLine, FewThreadsAreEnoughIfTheyAreLimited) {
-  // Stacks of 4 MB, TBB's default, for 1,500 threads do not fit into 4 GB of address space. A limit on the
-  // number of processes does not apply to root.
+  // 1,500 threads with stacks of 4 MB, TBB's default, do not fit into 4 GB of address space. A limit on the
+  // number of processes does not apply to root, so the test sets this limit for another user.
   const std::string user = geteuid() == 0 ? "setpriv --reuid 12345 --regid 12345 --clear-groups " : "";
   std::vector<std::string> limits{"ulimit -s 8192; ulimit -v 4000000;",
                                   "ulimit -s 2000000; ulimit -v 4000000;"};

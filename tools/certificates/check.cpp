@@ -105,7 +105,8 @@ void demand_keys(const Json& object, std::initializer_list<const char*> own) {
   demand(known == object.size(), "a key that is unknown, or of another claim");
 }
 
-/// The statement to be proved. Missing keys and wrong types make the JSON library throw.
+/// Reads the statement that the line should prove. If a key is missing or a value has a wrong type, the JSON
+/// library throws an exception.
 Statement read_statement(const Json& object) {
   Statement is;
   object.at("kind").get_to(is.kind);

@@ -26,7 +26,7 @@ NUMBER = r'(-?)(\d+)(?:/0*([1-9]\d*))?|(-?0x[01])(?:\.([\da-f]+))?p([+-]?)(\d{1,
 # integer() converts 600 digits at a time, because the limit of int() may be as low as 640 digits.
 integer = lambda s: reduce(lambda n, d: n * 10 ** len(d) + int(d), re.findall('.{1,600}', s), 0)
 is_double = lambda v: abs(v) < 2**1024 - 2**970 and Fraction(float(v)) == v
-# An object becomes a tuple of pairs, a number outside a string its length; NaN is refused.
+# Reads an object as a tuple of pairs, and a number outside a string as its length. Refuses NaN.
 JSON = JSONDecoder(object_pairs_hook=tuple, parse_int=len, parse_float=len, parse_constant=int)
 Statement = namedtuple('Statement', 'kind x h claim from_ to open strict')
 
@@ -100,7 +100,7 @@ def forms(vectors, p, q):
 
 def apart(s, vectors, body):
     """On each piece, n . (a - b) > 0 and (n . (a - b))^2 > h^2 n . n for all vertices a of A and b
-    of B. So |n| |a - b| >= n . (a - b) > h |n|, for all points a and b, which average vertices."""
+    of B. So |n| |a - b| >= n . (a - b) > h |n|, for all vertices, so for all points a and b."""
     times = numbers(body['times'], range(2, 20002))
     require(times[0] == s.from_ and times[-1] == s.to, '"times" does not span "from" to "to"')
     normals = numbers(body['normals'], [len(times) - 1], [3], range(1, 6))
@@ -129,8 +129,8 @@ def at(s, vectors, body):
 
 
 def bracket(s, vectors, body):
-    """At a time in [p, q], F = n . (x2 - x0) is zero, so all vertices are in one plane. There,
-    weights / n . n, all positive, are the barycentric coordinates of a point of both A and B."""
+    """At a time in [p, q], F = n . (x2 - x0) is zero, so all vertices are in one plane. At this
+    time, weights / n . n are positive: barycentric coordinates of a common point of A and B."""
     p, q = numbers(body['bracket'], [2])
     require(s.h == 0 and s.from_ <= p < q <= s.to, 'h is not 0, or not from <= p < q <= to')
     *x, h = forms(vectors, p, q)
@@ -145,7 +145,7 @@ def bracket(s, vectors, body):
 
 
 def edge(kind, x, names):
-    """A component of (v - y) x (z - y) is zero at a time in [p, q]; the others are its multiples.
+    """A component of (v - y) x (z - y) is zero at a time in [p, q]. The others are its multiples.
     So v is on the line through y and z. Two inner products show that v is between y and z."""
     edges = [e for e in permutations(range(len(x)), 3) if kind[e[0]] != kind[e[1]] == kind[e[2]]]
     require(names in [[*map(str, e)] for e in edges], '"edge" is not a vertex and an edge')

@@ -88,7 +88,7 @@ function(nearmiss_find_place place text)
   endif()
 endfunction()
 
-# Sets `result` to the text of a file, with a switch at each place of the list that is in this file.
+# Sets `result` to a copy of `text`, the text of `file`. The copy has a switch at each place of this file.
 function(nearmiss_switch file text result)
   set(spans "")
   foreach(place RANGE 1 ${places})

@@ -3,7 +3,8 @@ find_program(CCACHE ccache)
 if(CCACHE)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE})
   # ccache caches a file that uses a precompiled header only if ccache may ignore changed #defines, and the
-  # macros __DATE__ and __TIME__. CCACHE_DEPEND: a file that is not in the cache is not preprocessed first.
+  # macros __DATE__ and __TIME__. With CCACHE_DEPEND, ccache does not preprocess a file before compiling the
+  # file.
   set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
     ${CCACHE})
 endif()

@@ -58,9 +58,9 @@ std::string named(std::string name, const SeparationOption& separation) {
   return separation.is_given() ? fmt::format("{}~{}", name, separation.text) : std::move(name);
 }
 
-/// Makes an input, on all processors: for each kind that is asked, the first `count` queries of a family that
-/// pass the box test (the boxes of the moving primitives overlap). Throws Error if fewer than one query in
-/// 1000 passes, and Stopped if the user ends the command.
+/// Makes an input, on all processors. For each kind that is asked, the input has the first `count` queries of
+/// a family that pass the box test: the boxes of the moving primitives overlap. Throws Error if fewer than
+/// one query in 1000 passes, and Stopped if the user ends the command.
 Input family_input(const Family& family, std::uint64_t count, const SeparationOption& separation,
                    const Stop& stop) {
   Input input{named(family.name, separation), {}};
@@ -137,8 +137,8 @@ std::vector<Family> families_of(const BenchOptions& options) {
   return families;
 }
 
-/// Throws Error if memory is too small for the random queries of any one family, the answers, and what
-/// nearmiss shares with each plug-in.
+/// Throws Error if there is not enough memory for the random queries of the largest family, the answers, and
+/// the memory that nearmiss shares with each plug-in.
 void expect_room(const BenchOptions& options, const std::vector<Family>& families, const Subjects& subjects,
                  const isolation::PluginLimits& limits) {
   std::uint64_t bytes = options.queries * sizeof(Verdict);
@@ -151,7 +151,7 @@ void expect_room(const BenchOptions& options, const std::vector<Family>& familie
   isolation::expect_memory(fmt::format("--queries {}", options.queries), bytes + most);
 }
 
-/// If queries have a separation, throws Error for their kinds as expect_separations() does.
+/// Calls expect_separations() for the kinds of those queries that have a separation.
 void expect_separations_of(const std::vector<Input>& inputs, const std::vector<Family>& families,
                            const BenchOptions& options, const Subjects& subjects) {
   std::set<Kind> separated;

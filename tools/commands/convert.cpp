@@ -61,8 +61,9 @@ class NewFiles {
   std::map<fs::path, NewFile> files_;
 };
 
-/// The file for a query in the format "plain", "csv" or "json", and the query's lines in this file. The
-/// lines of "plain" and "csv" include the exact truth. Throws Error if the format cannot hold the query.
+/// The file that holds a query, in the format "plain", "csv" or "json", and the lines of that file that
+/// belong to the query. In the formats "plain" and "csv", these lines include the exact truth. Throws Error
+/// if the format cannot hold the query.
 std::pair<fs::path, std::string> converted(const std::string& format, const Case& each, bool truth) {
   const Query& query = each.query;
   if (format == "plain")
@@ -84,8 +85,8 @@ int run(const ConvertOptions& options) {
   for (const fs::path& path : options.paths)
     read_cases(path, [&](Case&& each) {
       ++count;
-      // Unlike collides(), earliest_time() also answers yes if the smallest distance is exactly the
-      // separation.
+      // If the smallest distance is exactly the separation, earliest_time() gives a time, but collides()
+      // answers no.
       const bool truth = earliest_time(each.query).has_value();
       if (each.truth && *each.truth != truth && each.query.separation == 0) ++wrong;
       if (options.format == "case") {

@@ -34,16 +34,16 @@ struct DemoOptions {
   std::filesystem::path out = "nearmiss-demo.case";
 };
 
-/// Whether a query is easy to draw: its coordinates are small, and its vertices are not coplanar at all
-/// times.
+/// Whether a query is easy to draw: its coordinates are small, and its vertices are coplanar at some times,
+/// but not at all times.
 bool is_plain(const Query& query) {
   return explain(query).roots > 0 &&
          std::all_of(query.x.begin(), query.x.end(), [](double c) { return std::abs(c) <= 10; });
 }
 
-/// Asks a subject random queries, either of ordinary families or of all other families, until the subject
-/// misses a collision whose shrunk query is easy to draw. In ordinary families, the collision must be an
-/// ordinary query.
+/// Asks a subject random queries until the subject misses a collision whose shrunk query is easy to draw. The
+/// queries are from ordinary families or, if `in_ordinary_families` is false, from all other families. In
+/// ordinary families, the missed query must be ordinary, too.
 struct PlainMiss {
   std::uint64_t queries = 0, misses = 0;
   Finding finding;  ///< with the shrunk query
@@ -100,8 +100,8 @@ void show_ordinary_miss(const Finding& finding, const PlainMiss& miss) {
   fmt::print("\n");
 }
 
-/// Prints the answers of wang and basic to an ordinary query, and then a simplified miss of basic in families
-/// that are not ordinary.
+/// Prints the answers of wang and basic to an ordinary query. Then prints a query that basic misses in
+/// families that are not ordinary, in simplified form.
 void show_exotic_miss(const Query& ordinary) {
   const auto answer = [&](const Subject& subject) {
     return subject.decide(ordinary).hit ? "reports" : "misses";

@@ -50,8 +50,9 @@ void print_queries(const FamilyOptions& options, const Family& family) {
   }
 }
 
-/// For each kind, prints how many queries are ordinary, how many each rule excludes from the ordinary ones,
-/// and how many in each group are collisions.
+/// For each kind, divides the queries into groups: the ordinary queries and, for each rule of
+/// why_not_ordinary(), the queries that are not ordinary because of this rule. Prints the numbers of queries
+/// and of collisions in each group.
 void print_classes(const FamilyOptions& options, const Family& family) {
   struct Count {
     std::uint64_t queries = 0, collisions = 0;

@@ -1,6 +1,6 @@
-// nearmiss audit shows the paper's rounding constants beside those that the paper's rules give for our code,
-// and beside those that are proven. nearmiss paper shows the paper's quantitative claims beside our
-// measurements.
+// nearmiss audit shows three values of each rounding constant side by side: the one in the paper, the one
+// that the paper's rules give for our code, and the proven one. nearmiss paper shows the paper's quantitative
+// claims beside our measurements.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,7 +42,8 @@ std::string number(double value, const char* format) {
 
 ordered_json or_null(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
 
-/// The distance bound that the smallest possible tolerances give, in units of B, the size of the pair.
+/// The distance bound that follows from the smallest possible tolerances. Its unit is B, the size of the
+/// pair.
 double bound_over_B(const ToleranceRow& row) { return row.tight_bound * std::exp2(row.exponent / 4.0); }
 
 ordered_json json_of(const std::vector<RoundingConstant>& constants,

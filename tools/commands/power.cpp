@@ -185,8 +185,8 @@ Hunt hunt_with_libfuzzer(const PowerOptions& options, const std::string& subject
   return soonest;
 }
 
-/// "0.12 s  12,345" for a miss, with "+" for a late time, with "*" for a refuted bound; "-" if nothing was
-/// found.
+/// The time and the number of cases until a hunt found a failure: "0.12 s  12,345". After these numbers, "+"
+/// marks a late time, and "*" a refuted bound; a miss has no mark. If nothing was found, returns "-".
 std::string cell(const Hunt& hunt) {
   if (!hunt.failure) return "-";
   const std::string_view mark = *hunt.failure == name(Finding::What::refuted_bound) ? "*"

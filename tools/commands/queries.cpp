@@ -58,9 +58,9 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// "1" if the primitives touch or come within the separation, otherwise "0". As in the library, a smallest
-/// distance of exactly the separation gives "1". "-" if a method that decides collisions (Claim::complete)
-/// cannot tell, or if any other method, such as root parity, does not answer the query.
+/// Returns "1" if the primitives touch or come within the separation, otherwise "0". As in the library, a
+/// smallest distance of exactly the separation gives "1". Returns "-" if a method that decides all collisions
+/// (Claim::complete) cannot tell, or if another method, such as root parity, gives no answer to the query.
 const char* show(const Answer& answer, Claim claim) {
   const auto said = answer.at_most ? answer.at_most : answer.collision;
   if (!said && (claim == Claim::complete || !answer.is_answer())) return "-";
@@ -232,8 +232,8 @@ struct VerdictOptions {
   bool rounded = false;
 };
 
-/// The distance bound by which a false positive is judged, and whose it is: " 0x1p-9 claimed" if the subject
-/// claims a bound, otherwise wang's bound, " 0x1p-9 wang".
+/// The distance bound by which a false positive of the subject is judged. This is the bound that the subject
+/// claims, such as " 0x1p-9 claimed", or, if it claims none, wang's bound, such as " 0x1p-9 wang".
 std::string show_distance_bound(const Subject& subject, const Judge& judge, const Query& query) {
   const BoundAnswer answer = judge.ask_unit(query);
   if (answer.fault == Fault::error)

@@ -1,5 +1,5 @@
-// nearmiss distance and nearmiss step, which ask subjects for distances and for safe parts of steps, not
-// whether primitives collide.
+// nearmiss distance and nearmiss step. These commands do not ask subjects whether primitives collide, but ask
+// for distances and for safe parts of steps.
 #include <fmt/format.h>
 
 #include <memory>
@@ -31,7 +31,7 @@ struct QuestionsOptions {
 
 constexpr const char* usual_time = "20s";
 
-/// The texts of one of the two commands.
+/// What differs between the two commands: their texts, and whether a command asks families at rest.
 struct Command {
   const char *name, *help;
   const char* function;   ///< the function of the plug-in interface that answers the question

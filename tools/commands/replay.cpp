@@ -37,8 +37,8 @@ struct ReplayOptions {
   bool as_answered = false;
 };
 
-/// The family under which a case is counted: the name of its folder, "NAME/"; for a folder edge-edge or
-/// vertex-face, the name of the folder above it.
+/// The family under which a case is counted: "NAME/", where NAME is the folder of the case. If that folder is
+/// called edge-edge or vertex-face, NAME is the folder above it.
 std::string family_of(const std::string& name) {
   fs::path folder = fs::absolute(name).lexically_normal().parent_path();
   if (folder.filename() == "edge-edge" || folder.filename() == "vertex-face") folder = folder.parent_path();
@@ -65,8 +65,8 @@ struct Pass {
   std::function<void(const CaseSink&)> read;
 };
 
-/// The passes that judge recorded answers, and ask no subject. Different answers to the same query are in
-/// different passes.
+/// The passes that judge recorded answers, and ask no subject. If a query was answered in different ways, the
+/// answers are in different passes.
 std::vector<Pass> passes_as_answered(const ReplayOptions& options, std::set<Kind>& seen) {
   std::vector<RecordedAnswer> answers;
   for (const fs::path& path : options.paths) {

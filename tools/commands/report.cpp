@@ -1,5 +1,5 @@
-// nearmiss report, merge and history: pages for people and data for scripts, from stores and from the reports
-// of nights.
+// nearmiss report, merge and history: these commands make pages for people, and data for scripts, from stores
+// or from the reports of nights.
 #include <fmt/format.h>
 
 #include <cstdint>

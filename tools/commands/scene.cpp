@@ -197,7 +197,7 @@ std::optional<Family> family_around(const SceneOptions& options, const Scene& sc
   }
 }
 
-/// Asks queries of the family around the scene, and returns a line about them.
+/// Asks the subjects queries of the family around the scene. Returns a line about the results.
 std::string hunt_around(const SceneOptions& options, const Family& family, const Subjects& subjects,
                         Record& record, const Stop& stop) {
   CampaignPlan plan;

@@ -1,4 +1,4 @@
-// nearmiss shrink: finds the simplest query that fails in the same way.
+// nearmiss shrink: finds the simplest query on which a subject fails in the same way as on a given query.
 #include <fmt/format.h>
 
 #include <array>
@@ -39,7 +39,8 @@ Case read_one(const ShrinkOptions& options) {
   return cases.front();
 }
 
-/// The failure on a query. Checks the oracle before the subject, because the oracle judges the subject.
+/// The failure of the oracle or of the subject on a query. Checks the oracle first, because the oracle judges
+/// the subject.
 Finding find_failure(const Case& each, const Subject& subject) {
   std::optional<Failure> failure = oracle_failure(each.query);
   if (!failure) failure = Judge(subject).failure(each.query);
@@ -57,8 +58,8 @@ Finding find_failure(const Case& each, const Subject& subject) {
                   each.name, subject.name()));
 }
 
-/// The subject, wrapped so that it is asked only queries that keep its contract if `query` keeps the
-/// contract, and only queries that break it otherwise.
+/// The subject in a wrapper. If `query` keeps the subject's contract, the wrapper asks the subject only
+/// queries that keep the contract; otherwise, only queries that break it.
 std::unique_ptr<Subject> made_for(const Query& query, const ShrinkOptions& options) {
   auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
   const Subject& subject = *sides.front();
@@ -77,7 +78,8 @@ Case shrunk_case(const Finding& finding, const std::string& became) {
           .provenance = "shrunk from " + finding.provenance};
 }
 
-/// Writes a text to the file of --out, all of it or nothing; without --out, to stdout.
+/// Writes a text to the file of --out or, without --out, to stdout. The file gets the whole text, or stays as
+/// it was.
 void write(const std::string& text, const ShrinkOptions& options, const std::string& became) {
   if (options.out.empty()) {
     fmt::print("{}", text);

@@ -34,7 +34,8 @@ std::string separations_of(const DetectorInfo& info) {
   return fmt::format("takes a separation for {}; ", names_of_kinds(info.separation_kinds, " and "));
 }
 
-/// Says for which kinds a plug-in gives distances, and for which it filters steps; "" if for none.
+/// Says for which kinds a plug-in gives distances, and for which kinds it filters steps; "" if it does
+/// neither.
 std::string further_questions(const DetectorInfo& info) {
   std::string text;
   for (const auto& [what, of] :
@@ -66,9 +67,10 @@ void describe(const std::string& name) {
   for (const auto& subject : make_any_subjects(name)) print(*subject);
 }
 
-/// Prints a line for each subject and each libFuzzer target that fits it: the target, and the subject in the
-/// form that the target takes (the path of its plug-in for a published CCD). Prints nothing for a program,
-/// because libFuzzer sees no coverage of another process. Throws Error if two subjects have the same name.
+/// Prints a line for each pair of a subject and a libFuzzer target that can hunt it. The line has the target,
+/// and the subject in the form that the target takes; for a published CCD, this is the path of its plug-in.
+/// Prints nothing for a program, because libFuzzer sees no coverage of another process. Throws Error if two
+/// subjects have the same name.
 void print_targets(const std::vector<std::string>& texts) {
   std::vector<std::unique_ptr<Subject>> subjects;
   for (const std::string& text : texts) {

@@ -38,13 +38,13 @@ double share(const ordered_json& results, const std::string& subject, const std:
          static_cast<double>(count(results, subject, "queries"));
 }
 
-/// The number of queries of a kind that a subject rejected for the reason `why`.
+/// How many queries of a kind a subject rejected for the reason `why`.
 std::uint64_t rejected(const ordered_json& results, const std::string& subject, const std::string& kind,
                        const char* why) {
   return results.at("subjects").at(subject).at(kind).at("rejected_by").value(why, std::uint64_t{0});
 }
 
-/// The number of queries of a kind that reached the subject's vertex-edge tests.
+/// How many queries of a kind reached the subject's vertex-edge tests.
 std::uint64_t vertex_edge_tests(const ordered_json& results, const std::string& subject,
                                 const std::string& kind) {
   const ordered_json& counts = results.at("subjects").at(subject).at(kind);
@@ -98,8 +98,8 @@ BothKinds pairs_at(double speed, const Stop& stop) {
           count_random_pairs(Kind::edge_edge, speed, some_pairs, 1, stop)};
 }
 
-/// The largest ratio of run times for which the paper's claim of a small overhead holds. Leaves room for the
-/// noise of a busy machine.
+/// The paper's claim of a small overhead holds if the ratio of run times is at most this. This limit leaves
+/// room for the noise of a busy machine.
 constexpr double small_overhead = 1.1;
 
 std::string in_words(const Ratios& ratios) {
@@ -526,7 +526,7 @@ const Commands all_simulations{"simulate knot --subject exact,wang,basic --no-sh
                                "simulate cloths --subject exact,wang,basic --no-shrink",
                                "simulate spikes --subject exact,wang,basic --no-shrink", hair_simulation};
 
-/// The commands of all simulations, and of the simulation of cloths in which basic fails
+/// The commands in `all_simulations`, and one more: the simulation of soft cloths in which basic fails
 /// (fuzz/simulation/README.md).
 Commands with_soft_cloths() {
   auto commands = all_simulations;

@@ -78,8 +78,9 @@ Subjects subjects_of(const py::list& of, const Stop& stop) {
   return subjects;
 }
 
-/// The kinds that are asked if no families are named: all kinds that at least one function decides or,
-/// without functions, the kinds that a campaign with these subjects asks.
+/// The kinds that are asked if no families are named. If some subjects are functions, these are all kinds
+/// that at least one function decides. Otherwise, these are the kinds that a campaign with these subjects
+/// asks.
 std::vector<Kind> kinds_of(const Subjects& subjects) {
   const auto is_function = [](const auto& each) {
     return dynamic_cast<const FunctionSubject*>(each.get()) != nullptr;
@@ -107,7 +108,7 @@ void let_python_handle_signals() {
 /// A function that receives the number of decided cases and the number of misses so far.
 using Report = std::function<void(std::uint64_t cases, std::uint64_t missed)>;
 
-/// For each subject, what earlier cases of the batch's kind and family have shown.
+/// For each subject, what is known from its answers to earlier cases of the batch's kind and family.
 std::vector<Known> known_before(const Batch& batch, const Subjects& subjects, const SoFar& so_far) {
   std::vector<Known> known;
   for (const auto& subject : subjects)
@@ -155,8 +156,8 @@ void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint6
   }
 }
 
-/// The largest ratio of a false positive's distance to its bound. If the bound is 0, the counts have the
-/// largest double as the ratio; returns infinity instead.
+/// The largest ratio of a false positive's distance to its bound. If a bound is 0, `counts` has the largest
+/// double as the ratio; this function then returns infinity.
 double farthest(const Counts& counts) {
   const double ratio = counts.max_ratio();
   return ratio == std::numeric_limits<double>::max() ? std::numeric_limits<double>::infinity() : ratio;

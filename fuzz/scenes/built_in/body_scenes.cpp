@@ -47,7 +47,7 @@ Rotation any_rotation(Random& random, double turns) {
   return {way / length(way), turns};
 }
 
-/// The shapes of the bodies in a scene of a given size (cubes, balls and slabs), and the number of bodies.
+/// The number of bodies in a scene of a given size, and their shapes: cubes, balls and slabs.
 struct Pieces {
   Pieces(int size, int half_a_side)
       : half(half_a_side),

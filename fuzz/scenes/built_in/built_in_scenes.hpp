@@ -42,8 +42,9 @@ Scene make_scene(const std::string& text, const BuiltInScene& scene);
 /// Whether a text names a built-in scene, as NAME or NAME@SIZE; the size is not checked.
 bool is_built_in_scene(const std::string& text);
 
-/// Makes the scene NAME in its default size, or NAME@SIZE. The text becomes the name of the scene. Throws
-/// Error if there is no such scene, or the size is not an integer or is out of range.
+/// Makes the scene that the text names: NAME stands for the default size, NAME@SIZE for another size. The
+/// text becomes the name of the scene. Throws Error if there is no such scene, or the size is not an integer
+/// or is out of range.
 Scene built_in_scene(const std::string& text);
 
 }  // namespace nearmiss

@@ -8,7 +8,7 @@ namespace nearmiss::environments {
 /// Decides a query in the mode of arithmetic that the caller has set. May throw.
 bool collides(const Query& query);
 
-/// The largest distance of a false positive that the CCD claims.
+/// The bound that the CCD claims on the distance of a false positive.
 double distance_bound(const Query& query);
 
 }  // namespace nearmiss::environments

@@ -28,7 +28,7 @@ using isolation::Request;
 using isolation::WorkerFailure;
 using isolation::WorkerProcess;
 
-/// The name of a plug-in, with the detector `subject` chosen.
+/// The name of a plug-in, changed so that it chooses the detector `subject`.
 std::string with_subject(const std::string& name, const std::string& subject) {
   const std::size_t path = PluginName::parse(name).path.size();
   return name.substr(0, path) + ":" + subject + name.substr(path);
@@ -152,7 +152,8 @@ class IsolatedPlugin final : public DescribedSubject {
     });
   }
 
-  /// The code of a failure in a verdict. Also stores in errors_ what the process wrote to standard error.
+  /// The fault code that a verdict has for a failure. Also stores in errors_ what the process wrote to
+  /// standard error.
   std::int32_t code_of(const WorkerFailure& failure) const {
     const std::int32_t code = has_text(failure.fault) ? texts_.number(failure.text) : failure.code;
     if (failure.errors.empty()) return code;
@@ -341,9 +342,9 @@ class IsolatedPlugin final : public DescribedSubject {
   mutable std::atomic<int> failed_starts_ = 0;  // number of consecutive failed starts
   mutable std::mutex mutex_;
   mutable std::string why_not_loaded_;  // at the last failed start
-  /// By thread, fault and fault code: the text that the process wrote when this fault last happened to a
-  /// query of this thread. The thread reads the text right after the fault, so it gets the text of that
-  /// query.
+  /// The text that the process wrote when a fault last happened to a query of a thread. The key has the
+  /// thread, the fault and the fault code. The thread reads the text right after the fault, so it gets the
+  /// text of the query that had the fault.
   mutable std::map<std::tuple<std::thread::id, Fault, std::int32_t>, std::string> errors_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };

@@ -17,7 +17,7 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// The largest plug-in: the usual relocations of x86-64 and AArch64 code cannot address more bytes.
+/// The largest size of a plug-in. The usual relocations of x86-64 and AArch64 code cannot address more bytes.
 constexpr off_t most_bytes = off_t{1} << 31;
 
 bool is_same(const timespec& a, const timespec& b) { return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec; }

@@ -65,7 +65,7 @@ struct BatchMemory {
   static constexpr std::size_t bytes_of_question = 25 * sizeof(double);
   static constexpr std::size_t bytes_of_answer = 5 * sizeof(std::uint64_t) + 2 * sizeof(int);
 
-  /// The coordinates, as the detector reads them.
+  /// The coordinates, in the layout that the detector wants.
   [[nodiscard]] double* x() const { return questions; }
   [[nodiscard]] double* separations() const { return questions + 24 * n; }
 
@@ -78,7 +78,7 @@ struct BatchMemory {
   /// The plug-in's decisions, as in nearmiss_subject.h.
   [[nodiscard]] int* values() const { return at<int>(5); }
 
-  /// Like calls(), but for the empty detector, whose answers must not be mistaken for those of the plug-in.
+  /// Like calls(), but for Detector::empty(), whose answers must not be mistaken for those of the plug-in.
   [[nodiscard]] std::uint64_t* calls_of_empty() const { return at<std::uint64_t>(3); }
   [[nodiscard]] double* numbers_of_empty() const { return at<double>(4); }
   [[nodiscard]] int* values_of_empty() const { return values() + n; }

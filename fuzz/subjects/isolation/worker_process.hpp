@@ -22,8 +22,8 @@
 namespace nearmiss::isolation {
 
 struct PluginLimits {
-  /// The limit for a query on the computing time of all threads and processes of the plug-in together. The
-  /// wall-clock time may be ten times as long.
+  /// A query may take this much computing time, which is the sum over all threads and processes of the
+  /// plug-in. The wall-clock time may be ten times as long.
   Duration time{1};
   std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
   Duration loading{30};                          ///< the time that loading may take
@@ -39,9 +39,9 @@ struct PluginLimits {
 /// The most queries that a worker gets at once: as many as the detector wants, but at least least_capacity.
 constexpr std::size_t capacity_for(const DetectorInfo& info) { return std::max(least_capacity, info.batch); }
 
-/// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries; if the worker
-/// takes fewer queries at once, for the largest batch that it takes. Throws a TrialError if this memory
-/// exceeds the plug-in's limit.
+/// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries, or for the
+/// largest batch that the worker takes, if this has fewer queries. Throws a TrialError if this memory exceeds
+/// the plug-in's limit.
 std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits);
 
 /// A request about several queries may take this many times the limit of one query.
@@ -101,11 +101,11 @@ class WorkerProcess {
   [[nodiscard]] double number(std::uint32_t i) const { return batch_.numbers()[i]; }
   /// Further numbers of the answer to a question about one query: weights, or positions.
   [[nodiscard]] const std::array<double, 12>& more() const { return answers_->more; }
-  /// The time in ns that the worker measured in the last call: measured() of the whole call, measured(i) of
-  /// query i. Each time is limited to nearmiss's own time for the call. The time of the whole call is also
-  /// raised to at least half of the computing time of all threads and processes of the plug-in, less the part
-  /// that the worker itself may compute. The factor is one half because the plug-in may have decided each
-  /// query twice. The time of the first call is not raised.
+  /// The time in ns that the worker measured in the last call: measured() is the time of the whole call,
+  /// measured(i) that of query i. Each time is limited to nearmiss's own time for the call. The time of the
+  /// whole call is also raised to at least half of the computing time of all threads and processes of the
+  /// plug-in, less the part that the worker itself may compute. The factor is one half because the plug-in
+  /// may have decided each query twice. The time of the first call is not raised.
   [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds, least_); }
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
     return limited(batch_.nanoseconds()[i], Duration{});

@@ -83,8 +83,8 @@ class Scaled final : public Subject {
           within_distance_bound<EitherTolerances, T>(seen.query, given_in(seen), tolerances_);
       return std::nextafter(std::ldexp(bound, -seen.exponent), std::numeric_limits<double>::infinity());
     }
-    // Rounded up. The margin `slack` covers the rounding of B, the size of the pair: the B that the subject
-    // computes in T is at most B* (1 + 40ε), where B* is the exact B.
+    // The result is rounded up. The margin `slack` covers the rounding of B, the size of the pair: the B that
+    // the subject computes in T is at most B* (1 + 40ε), where B* is the exact B.
     const double bound = static_cast<double>(tolerances_(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));

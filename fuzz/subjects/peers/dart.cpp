@@ -3,7 +3,8 @@
 // tolerance of 1e-6 and 128 iterations. If the iterations run out, the answer is "indeterminate", which DART
 // treats as unsafe; here, the answer becomes "cannot tell".
 // Source: github.com/dartsim/dart, bb9413c7. Licence: BSD.
-// Question: a separation, by default 1e-4 if asked for contact; the time of impact is a lower bound.
+// Question: a separation. If the query asks for contact, the separation is 1e-4 (an option). The time of
+// impact is a lower bound.
 // Contract: none. Primitives within the separation at t = 0 collide at time 0.
 // $DART is the repository, built in $DART/build:
 //

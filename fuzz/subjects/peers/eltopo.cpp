@@ -2,12 +2,13 @@
 // numerically (Brochu and Bridson, "Robust topological operations for dynamic explicit surfaces", 2009).
 // `eltopo-root-parity` computes root parity (Brochu, Edwards and Bridson, 2012); for this version,
 // common/ccd_defs.h defines USE_ROOT_PARITY_CCD. This adapter calls El Topo as eltopo3d/collisionpipeline.cpp
-// does: indices ascend, and the function also finds the place of contact. El Topo gives no time.
+// does: it passes ascending indices of the vertices, and calls the functions that also find the place of
+// contact. El Topo gives no time.
 // Source: github.com/tysonbrochu/eltopo, 5579391. Licence: BSD.
 // Question: contact; `eltopo-root-parity` answers whether the number of contacts is odd.
 // Contract: the primitives are apart at t = 0, because El Topo starts from a surface without intersections,
-// and lets none arise. For `eltopo-root-parity`, the volume F of the four vertices also has at most one root,
-// a simple one.
+// and lets none arise. For `eltopo-root-parity`, F, the volume of the four vertices, also has at most one
+// root, and this root is simple.
 // $ELTOPO is the repository, with its code compiled into libeltopo.a. The code for root parity rounds
 // upwards, which the compiler must know (g++ needs -frounding-math). The command for `eltopo-root-parity`
 // also has -o build/release/peers/eltopo-root-parity.so:

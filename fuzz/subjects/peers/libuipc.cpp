@@ -18,8 +18,8 @@
 //       -I$LIBUIPC/src/backends/cuda -I$LIBUIPC/include -I$MUDA/src -I$CUDA/include -I$CUDA/include/cccl
 #include <Eigen/Dense>
 #include <algorithm>
-// The headers below use <Eigen/Dense> and <algorithm> without including them, and the second header below
-// uses the first.
+// The two headers below use <Eigen/Dense> and <algorithm> without including them. ccd.h also uses
+// distance_flagged.h.
 #include <utils/distance/distance_flagged.h>
 
 #include <utils/distance/ccd.h>
@@ -38,11 +38,11 @@ struct Settings {
 
 constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"d-hat", &Settings::d_hat, 0, 1e300}}};
 
-/// Converts a vertex to this type, for templates that deduce the type of its coordinates.
+/// Converts a vertex to Eigen::Vector3d, because libuipc's templates deduce the type of its coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Makes a function that asks the CCD about primitives with n vertices in all if their boxes meet, and
-/// otherwise reports no collision.
+/// Makes a function that decides queries with n vertices. If the boxes meet, the function asks the CCD;
+/// otherwise it reports no collision.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {

@@ -6,7 +6,8 @@
 // h at t = 0.
 // Source: github.com/Continuous-Collision-Detection/Minimum-Separation-Root-Finder, src, 1aeb9ac0. Licence:
 // MIT.
-// Question: a separation, 1e-8 if asked for contact; the time of impact is an estimate.
+// Question: a separation. If the query asks for contact, the separation is 1e-8. The time of impact is an
+// estimate.
 // Contract: more than 1e-8 apart at t = 0.
 // $MSRF is the repository, with its code compiled into libmsrf.a:
 //
@@ -20,8 +21,9 @@ namespace {
 using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
-/// The separation that stands for contact. The authors of this implementation use it in their benchmark when
-/// they ask for collisions at distance 0 (DEFAULT_MIN_DISTANCE of CCD-Wrapper, src/ccd.hpp).
+/// The separation that the root finder gets if the query asks for contact. The authors of this implementation
+/// use it in their benchmark when they ask for collisions at distance 0 (DEFAULT_MIN_DISTANCE of CCD-Wrapper,
+/// src/ccd.hpp).
 constexpr double contact = 1e-8;
 
 Answer decide(const Question& q) {

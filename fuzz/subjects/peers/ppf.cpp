@@ -2,18 +2,19 @@
 // here compiled for the host. On a GPU, the compiler fuses multiplications with additions, which may change
 // the last bits. This adapter calls the code as contact.cu does, with the time step extended to t = 1.25
 // (line-search-max-t). A time below 1.25 is a collision. The solver then cuts the step to 0.8 of that time
-// (line_search() divides by 1.25); the adapter passes on this shorter time. By design, contact between t = 1
-// and t = 1.25 is a collision, and so is an approach to a hundredth of the contact gap, because the solver
-// stops pairs at this distance.
+// (line_search() divides by 1.25); the adapter passes on this shorter time. By design, two further cases are
+// collisions: contact between t = 1 and t = 1.25, and an approach to a hundredth of the contact gap, the
+// distance at which the solver stops pairs.
 // Source: github.com/st-tech/ppf-contact-solver, f23b356. Licence: Apache 2.0.
 // Question: contact, or a separation, which the code calls contact offset. The time of impact is a lower
 // bound. The options have the solver's defaults: gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25
 // (line-search-max-t).
 // Contract: the primitives are farther apart at t = 0 than the separation, and farther than 5e-6. From a
-// closer start, the solver stops with the error OverlappingStart, and accd.hpp argues that the solver keeps a
-// clearance of half the distance at which it stops pairs. No edge, and no path of a vertex in the step, is
-// longer than 10, because the margin for rounding is given for "a scene of radius 10". (With a separation,
-// the primitives would have to be farther apart than the separation plus 5e-6, which a contract cannot say.)
+// closer start, the solver stops with the error OverlappingStart. According to accd.hpp, the solver never
+// leaves a pair so close: it stops pairs at a distance of 1e-5, and they keep at least half of this distance.
+// No edge, and no path of a vertex in the step, is longer than 10, because the margin for rounding is given
+// for "a scene of radius 10". (With a separation, the primitives would have to be farther apart than the
+// separation plus 5e-6, which a contract cannot say.)
 // $PPF is the repository, whose header contains the whole code, and $CUDA is the folder of CUDA's headers. No
 // GPU is needed:
 //

@@ -2,7 +2,8 @@
 // 2012).
 // Source: github.com/bohanwang/libpgo, third-party/CCD/ExactCCD, 88dfe845. Licence: public domain.
 // Question: whether the number of contacts is odd, counted with multiplicity: a double root counts twice.
-// Contract: at most one root, and no double root, because the answer then says whether there is contact.
+// Contract: F, the volume of the four vertices, has at most one root, and this root is simple. Then the
+// answer says whether there is contact.
 // $ROOT_PARITY is the folder ExactCCD, with its code compiled into librootparity.a. The interval arithmetic
 // rounds upwards, which the compiler must know: g++ needs -frounding-math.
 //

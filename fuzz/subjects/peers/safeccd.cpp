@@ -2,7 +2,8 @@
 // called through the wrapper in libpgo, which computes B, the size of a pair, for each pair.
 // Source: github.com/bohanwang/libpgo, third-party/CCD/SafeCCD, 88dfe845. Licence: BSD-like, in its header.
 // Question: contact; the time of impact is an estimate.
-// Contract: the primitives are apart at t = 0, and their sizes are in a range (below).
+// Contract: the primitives are apart at t = 0, and their lengths are neither too large nor too small (end of
+// this file).
 // $SAFECCD is the folder SafeCCD, with its code compiled into libsafeccd.a:
 //
 //   tools/subject fuzz/subjects/peers/safeccd.cpp -- -I$SAFECCD $SAFECCD/libsafeccd.a
@@ -33,8 +34,8 @@ Answer decide(const Question& q) {
   return Answer::of(collides, t);
 }
 
-/// The bound that the paper claims: 41 B ε^¼, with ε^¼ = 2^-13. It is also half of `gap` in the code, which
-/// says that `gap` is twice the largest distance of a false positive.
+/// The bound that the paper claims: 41 B ε^¼, with ε^¼ = 2^-13. The code agrees: it says that its `gap`,
+/// which is twice this bound, is twice the largest distance of a false positive.
 double distance_bound(void* /*state*/, int kind, const double* x) {
   const Question q{kind, x, 0};
   return 41 * 0x1p-13 *
@@ -45,8 +46,8 @@ double distance_bound(void* /*state*/, int kind, const double* x) {
 }  // namespace
 
 // The code's tests multiply up to six unscaled lengths: beyond 1e±50, the products overflow or vanish. If all
-// coordinates are multiples of about 1e-50, B is also at least 1e-50, unless all points of the pair coincide
-// at all times.
+// coordinates are multiples of about 1e-50, B is at least 1e-50, unless all points of the pair coincide at
+// all times.
 NEARMISS_SUBJECT(detector("safeccd", "1.0",
                           "the 2014 paper's own code, SAFE_CCD, with each pair's own bound B")
                      .vertex_triangle(decide)

@@ -1,17 +1,17 @@
 // Scalable-CCD (Belgrod, Wang, Ferguson, Zhao, Attene, Panozzo and Schneider, "Time of impact dataset for
-// continuous collision detection and a scalable conservative algorithm", 2023), Tight-Inclusion for a GPU, in
-// one of its two versions: `scalable-ccd`, the default, computes in double, and `scalable-ccd-float` in
-// float, without SCALABLE_CCD_USE_DOUBLE. Here, its kernels are compiled for the host, and run in one thread.
-// On a GPU, they are compiled with --use_fast_math, which may change the last bits, and test the domains
-// (boxes of parameters) of one level of bisection at the same time. For each domain, the kernel compares the
-// number of domains tested before with the limit on iterations. On a GPU, chance decides how many domains of
-// the same level this number includes; here it includes none, so that the limit drops as few domains as
-// possible. This adapter does what partial_ipc_ccd_strategy() in cuda/ipc_ccd_strategy.cu does. If the time
-// is below 1e-6, that function asks again, without a separation and without a limit on iterations, and
-// answers with 0.8 of the new time. If the iterations run out, the kernel drops the remaining domains, and
-// the answer is no collision unless a collision was found before. If the queue exceeds 2^24 domains, this
-// adapter answers "cannot tell"; the original enlarges its queue and asks again, until the GPU's memory is
-// full.
+// continuous collision detection and a scalable conservative algorithm", 2023): Tight-Inclusion for a GPU, in
+// one of two versions. `scalable-ccd`, the default, computes in double; `scalable-ccd-float`, built without
+// SCALABLE_CCD_USE_DOUBLE, computes in float. Here, its kernels are compiled for the host, and run in one
+// thread. On a GPU, they are compiled with --use_fast_math, which may change the last bits, and one level of
+// bisection tests all its domains (boxes of parameters) at the same time. When a kernel tests a domain, it
+// compares the limit on iterations with the number of domains that were tested earlier. On a GPU, chance
+// decides how many domains of the same level this number includes; here it includes none, so that the limit
+// drops as few domains as possible. This adapter does what partial_ipc_ccd_strategy() in
+// cuda/ipc_ccd_strategy.cu does. If the time is below 1e-6, that function asks again, without a separation
+// and without a limit on iterations, and answers with 0.8 of the new time. If the iterations run out, the
+// kernel drops the remaining domains, and the answer is no collision unless a collision was found before. If
+// the queue exceeds 2^24 domains, this adapter answers "cannot tell"; the original enlarges its queue and
+// asks again, until the GPU's memory is full.
 // Source: github.com/Continuous-Collision-Detection/Scalable-CCD, 8f9347c. Licence: Apache 2.0.
 // Question: contact, or a separation, which the code calls min_distance. The time of impact is a lower bound.
 // The options have the values that ipc-toolkit (b40e9c07, ipc.cpp) passes: tolerance=1e-6, iterations=1e7
@@ -118,7 +118,7 @@ struct Settings {
 constexpr std::array<nearmiss::Option<Settings>, 2> settings{
     {{"tolerance", &Settings::tolerance, 1e-300, 1e300}, {"iterations", &Settings::iterations, -1, 2e9}}};
 
-/// The number of domains that the queue can hold. It is larger than the number that 1e7 iterations can add.
+/// The number of domains that the queue can hold. 1e7 iterations add fewer domains.
 constexpr unsigned capacity = 1U << 24;
 
 /// The memory of the queue: 0.9 GB, of which the system provides only the parts that are used.

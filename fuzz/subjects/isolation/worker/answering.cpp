@@ -123,7 +123,7 @@ void note(std::uint64_t* calls, std::uint32_t n, std::uint64_t call) {
   for (std::uint32_t i = 0; i < n; ++i) std::atomic_ref(calls[i]).store(call, std::memory_order_release);
 }
 
-/// The coordinates of the queries [first, first + n) of the batch, as the detector reads them.
+/// The coordinates of the queries [first, first + n) of the batch, in the layout that the detector wants.
 const double* coordinates(const Detector& detector, Kind kind, std::uint32_t first, std::uint32_t n) {
   const std::size_t size = coordinate_count(kind);
   if (!detector.info().in_arrays) return shared.x() + size * first;
@@ -139,8 +139,8 @@ struct Answers {
   int* values;
 };
 
-/// Asks the plug-in's detector, or the empty one (Detector::empty), about a batch, which is laid out for the
-/// plug-in's detector.
+/// Asks a detector about a batch: the plug-in's detector, or the empty one (Detector::empty). The batch has
+/// the layout that the plug-in's detector wants.
 class Asking {
  public:
   Asking(const Detector& plugin, const Call& call)
@@ -183,7 +183,7 @@ class Asking {
   /// The part of the last measured time without copies to a device.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const { return kernel_nanoseconds_; }
 
-  /// Writes the number that ask(x, h) returns as the answer to each query.
+  /// Calls ask(x, h) for each query, and writes the result as the answer to this query.
   template <class Ask>
   void give(const Ask& ask) {
     for (std::uint32_t i = 0; i < call_.queries; ++i) {
@@ -267,7 +267,8 @@ void reply(std::uint64_t number) {
   }
 }
 
-/// The descriptors that come with Request::share: of the memory for questions, and of that for answers.
+/// The two descriptors that come with Request::share: first that of the memory for questions, then that of
+/// the memory for answers.
 using Files = std::array<int, 2>;
 
 /// Receives a call with at most `most` queries; if `files` is not null, also the files that come with the

@@ -5,9 +5,9 @@
 
 namespace nearmiss::isolation {
 
-/// Loads a plug-in, given by its name on the command line, at the first request, and answers later requests
-/// until the other end of `reply_socket` is closed. Returns the exit code. `bytes` limits the memory that the
-/// plug-in may use in addition to what loading took; 0 is no limit.
+/// Answers requests until the other end of `reply_socket` is closed. The first request loads the plug-in;
+/// `plugin` is the plug-in's name on the command line. Returns the exit code. `bytes` limits the memory that
+/// the plug-in may use in addition to what loading took; 0 is no limit.
 int answer_requests(const char* plugin, std::uint64_t bytes);
 
 }  // namespace nearmiss::isolation

@@ -8,16 +8,17 @@
 
 namespace nearmiss::isolation {
 
-/// From now on, `flag` becomes 1 whenever malloc(3) or mmap(2) refuse memory to this process.
+/// From now on, `flag` becomes 1 whenever malloc(3) or mmap(2) refuses memory to this process.
 void note_refusals_in(std::atomic<std::uint32_t>& flag);
 
 /// Sets the flag of note_refusals_in(), after the system has refused memory.
 void note_refusal();
 
-/// Limits the memory that this process may take while it loads the plug-in: to twice `more`, the limit for a
-/// query, beyond what it has now; 0 is no limit. Processes that this process starts inherit the limit. The
-/// address space is not limited yet, because drivers of devices reserve much of it. A file, on a disk or in
-/// memory, cannot become larger than `more` bytes; writing more is an error.
+/// Limits the memory that this process may take while it loads the plug-in. `more` is the limit for a query
+/// (0: no limit); loading may take twice as much, in addition to what the process has now. Processes that
+/// this process starts inherit the limit. The address space is not limited yet, because drivers of devices
+/// reserve much of it. A file, on a disk or in memory, cannot become larger than `more` bytes; writing more
+/// is an error.
 void limit_memory_of_loading(std::uint64_t more);
 
 /// Limits the memory that this process or its only child may use, in addition to the memory that it has after

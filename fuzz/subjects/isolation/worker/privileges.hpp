@@ -3,7 +3,7 @@
 
 namespace nearmiss::isolation {
 
-/// Gives up every privilege (capabilities(7)) except those of root on files, for this process and all
+/// Gives up every privilege (capabilities(7)) except root's rights to files, for this process and all
 /// processes that it starts. Afterwards, this process can neither trace a process that has more privileges,
 /// such as its supervisor, nor read the memory of such a process.
 void drop_privileges();

@@ -15,9 +15,10 @@ namespace nearmiss::isolation {
 /// Thrown if a program wrote bytes that answer no question.
 struct UnaskedBytes {};
 
-/// Runs a command, which answers batches of queries (fuzz/subjects/PROGRAMS.md says how), as a child of this
-/// process. If the command ends, this process ends in the same way, after writing to standard error what the
-/// command wrote there.
+/// Runs a command as a child of this process. The command answers batches of queries, as
+/// fuzz/subjects/PROGRAMS.md says. If the command ends, this process first writes to standard error what the
+/// command wrote there, and then ends in the same way. But if the command failed with a message, Program
+/// throws std::runtime_error with the message's last line.
 class Program {
  public:
   /// Starts the command, and reads its description. Throws Error if the description is missing or invalid.

@@ -7,7 +7,7 @@
 
 namespace nearmiss::isolation {
 
-/// What the first lines of a program's output say (fuzz/subjects/PROGRAMS.md).
+/// The content of the first lines of a program's output (fuzz/subjects/PROGRAMS.md).
 struct ProgramDescription {
   std::string name, version, about;
   bool claims_bound = false;

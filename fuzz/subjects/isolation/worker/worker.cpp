@@ -98,7 +98,7 @@ class LastOutput {
     if (pipe_ >= 0) fcntl(pipe_, F_SETFL, O_NONBLOCK);
   }
 
-  /// What poll(2) waits for; nothing once the pipe has no writer.
+  /// The event for poll(2): the pipe can be read. poll(2) ignores it once the pipe has no writer.
   [[nodiscard]] pollfd event() const { return {pipe_, POLLIN, 0}; }
 
   /// Reads what is in the pipe, at most 128 KiB, because a writer may never stop.

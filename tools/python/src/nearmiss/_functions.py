@@ -168,9 +168,10 @@ def certificate(
     returns the statement that it proves; compare the statement with what you asked. On average, a
     certificate takes a millisecond and has a thousand characters.
 
-    A certificate contains only the statements that can be proved. A statement has no proof only if the
-    distance reaches the separation at an irrational time, and then neither falls below the separation nor
-    stays equal to it. If no statement is left, returns None in place of a string.
+    A certificate contains only the statements that can be proved. The only statements without a
+    proof are about queries whose distance reaches the separation at an irrational time, and right
+    after this time neither falls below the separation nor stays equal to it. If no statement is
+    left, returns None in place of a string.
 
     kind, x, separation: as for collides()
     prove: 'decision': the answer of collides();
@@ -194,8 +195,8 @@ def wang(
 ) -> NDArray[np.bool_]:
     """Whether the failure-proof CCD of Wang (2014) reports each query as a collision.
 
-    It reports every collision. It may also report another query, but only if the distance of the primitives
-    falls to at most wang_bound() plus the separation.
+    This CCD reports every collision. It may also report a query that is no collision, but only if
+    the distance of the primitives falls to at most wang_bound() plus the separation.
 
     kind, x, separation: as for collides(); only 'vv' and 've' take a separation
     """

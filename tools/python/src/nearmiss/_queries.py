@@ -56,7 +56,7 @@ class MeshPairs:
 
 
 def kind_of(kind: KindLike) -> Kind:
-    """The kind, or a ValueError."""
+    """Returns the kind that a text names. Raises a ValueError for any other text."""
     try:
         return Kind(kind)
     except ValueError:
@@ -123,19 +123,21 @@ class Asked:
 
 
 def asked_of_wang(kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: ArrayLike) -> Asked:
-    """Queries that wang() can answer, or a ValueError."""
+    """Returns the queries. Raises a ValueError if wang() cannot answer them."""
     if _LAYOUTS[kind_of(kind)].vertices == 4 and np.any(separation):
         raise ValueError(f"separation is not 0, expected 0 for the kind '{kind_of(kind).value}'")
     return Asked(kind, x, separation)
 
 
 def not_negative(name: str, value: Any) -> float:
-    """The value of an option as a nonnegative double, or a TypeError or ValueError with the option's name."""
+    """Returns the value of an option as a nonnegative double. Raises a TypeError or ValueError
+    with the option's name for any other value."""
     return _option(name, value, 'a double that is not negative', lambda number: number >= 0)
 
 
 def at_most_1(name: str, value: Any) -> float:
-    """The value of an option as a double up to 1, or a TypeError or ValueError with the option's name."""
+    """Returns the value of an option as a double up to 1. Raises a TypeError or ValueError with
+    the option's name for any other value."""
     return _option(name, value, 'a double that is at most 1', lambda number: number <= 1)
 
 

@@ -256,8 +256,9 @@ def trial(
               CCDs run in processes of their own, for which they need the program nearmiss of the same version
     cases:    total number of queries, divided among the families
     families: names, such as 'uniform', 'aspect@8' or 'uniform~0.1'; families() lists the names. By default,
-              all families that ask for contact, and the families of vertices and edges, which draw
-              separations, but no family of kinds that none of the functions decides
+              all families that ask for contact, and the families of vv and ve queries, which have
+              random separations; if some subjects are functions, only families that have queries of a
+              kind that a function decides
     seed:     seed of the random queries; `nearmiss fuzz` asks the same queries with the same families, cases
               and seed
     shrunk:   how many findings of each signature and class are shrunk; shrinking one finding may ask a
