@@ -5,9 +5,9 @@
  * and degenerate primitives. Nearly all queries are decided in double arithmetic with certified error bounds,
  * without memory from the heap. Exact arithmetic decides the other queries. It also decides whether there is
  * contact at t = 0 or t = 1, if double arithmetic cannot. Exact arithmetic allocates memory and takes
- * microseconds to milliseconds; the slowest known queries, with coordinates of very different sizes, take
- * tenths of a second. nearmiss_smallest_distance() allocates memory, too. A program cannot go on after an
- * allocation that fails inside GMP or CGAL.
+ * microseconds to milliseconds; the certificates of the slowest known queries, with coordinates of very
+ * different sizes, take tenths of a second. nearmiss_smallest_distance() allocates memory, too. A program
+ * cannot go on after an allocation that fails inside GMP or CGAL.
  *
  * Many threads may call all functions at once; each call works in its own thread. The functions set the
  * processor's rounding mode if need be, and restore it. They do not print or throw. */

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view beyond_the_bound = "false positives beyond the bound";
 constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's bound (no claim)";
 
-/// The rates of one subject, kind and family that campaigns are compared by.
+/// The rates of one subject, kind and family that are compared between campaigns.
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
@@ -28,8 +28,8 @@ std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& coun
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
-/// The sum of the last campaign's proportion and of those of earlier campaigns that differ from it by no more
-/// than chance explains.
+/// Adds up the proportions of several campaigns: that of the last one, and each earlier proportion that
+/// differs from it by no more than chance explains.
 Proportion like_the_last(const std::vector<Proportion>& all, double risk) {
   Proportion sum;
   for (const Proportion& each : all)
@@ -60,14 +60,15 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const C
   return pairs;
 }
 
-/// Up to such a number, failures count as few. rates_where_few() tries all three thresholds, because larger
-/// campaigns have more failures.
+/// A pair of family and kind has few failures if it has at most this many. rates_where_few() tries all three
+/// thresholds, because larger campaigns have more failures.
 constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 
 /// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
-/// The proportions {now, before} of some pairs of family and kind, and the set of these kinds, as bits.
+/// The proportions {now, before} of one rate, for several pairs of family and kind. The bits of `kinds` are
+/// the set of their kinds.
 struct FewFailures {
   std::vector<std::pair<Proportion, Proportion>> proportions;
   int kinds = 0;

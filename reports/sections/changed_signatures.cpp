@@ -22,8 +22,8 @@ using What = Finding::What;
 /// A sort of failure, and the subject that fails.
 using Sort = std::pair<What, std::string>;
 
-/// The expected number of new signatures in a campaign with `ratio` times as many queries as the baseline,
-/// by the series of Good and Toulmin (1956), or by its first term if the campaign is larger than the
+/// The expected number of new signatures in a campaign with `ratio` times as many queries as the baseline.
+/// Uses the series of Good and Toulmin (1956), or only its first term if the campaign is larger than the
 /// baseline. `seen` says how often each known signature was seen in the baseline.
 double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
   double expected = 0;
@@ -99,9 +99,9 @@ std::uint64_t failures(const Counts& counts, What what) {
   return sum;
 }
 
-/// How many queries could have shown a sort of failure now, and how many before. The counters do not say in
-/// which families a signature was seen, so only the range of the ratio now / before over the families is
-/// known.
+/// The number of queries that could have shown a sort of failure: this number in the baseline (before), and
+/// its ratio now / before. The counters do not say in which families a signature was seen, so only the range
+/// of this ratio over the families is known.
 struct Chances {
   std::uint64_t before = 0;  ///< number of random queries in the baseline that could have shown the failure
   double least = HUGE_VAL;   ///< the smallest ratio now / before over the families and kinds of the baseline
@@ -115,7 +115,7 @@ struct Chances {
   [[nodiscard]] std::uint64_t now(double ratio) const {
     return static_cast<std::uint64_t>(ratio * static_cast<double>(before));
   }
-  /// The smallest number of draws that could have made this many queries.
+  /// A lower bound of the number of random draws that made `queries` queries.
   [[nodiscard]] std::uint64_t draws(std::uint64_t queries) const { return queries / repeats; }
   [[nodiscard]] Proportion proportion(std::uint64_t failures, std::uint64_t queries) const {
     return {draws(failures), draws(std::max(failures, queries))};
@@ -146,7 +146,7 @@ std::uint64_t unsampled(const Statistics& statistics, const Sort& sort) {
   return sum;
 }
 
-/// The probability, if nothing has changed since `before`, of seeing a signature at least as often as now.
+/// The probability that a signature is seen at least as often as now, if nothing has changed since `before`.
 double chance_of_more(const Signature& signature, const Statistics& now, const Statistics& before) {
   const Chances chances = chances_of({signature.what, signature.subject}, now, before);
   if (!chances.known()) return 1;
@@ -155,8 +155,8 @@ double chance_of_more(const Signature& signature, const Statistics& now, const S
       .more;
 }
 
-/// The probability, if nothing has changed, that a failure seen `before` times in the baseline is not seen
-/// now.
+/// The probability that a failure seen `before` times in the baseline is not seen now, if nothing has
+/// changed.
 double chance_of_none(std::uint64_t before, const Chances& chances) {
   if (!chances.known()) return 1;
   return fisher_test(chances.proportion(0, chances.now(chances.least)),
@@ -171,8 +171,8 @@ std::map<Sort, std::vector<std::uint64_t>> seen_by_sort(const Statistics& statis
   return seen;
 }
 
-/// The sum of the campaigns of a baseline, except those in which a signature was rarer than in the last
-/// campaign by more than chance explains.
+/// Adds up the campaigns of a baseline. Leaves out a campaign if the signature was rarer in it than in the
+/// baseline's last campaign, by more than chance explains.
 Statistics without_rarer(const Signature& signature, std::span<const Campaign> baseline, double risk) {
   Statistics sum;
   for (const Campaign& each : baseline)
@@ -236,8 +236,8 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, Cha
   }
 }
 
-/// "in version 2" or "since sha256 0123456789ab": the first other code after the signature was last seen; ""
-/// if the code has not changed or is not known.
+/// Names the first changed code of the subject after the code that last had the signature: "in version 2" or
+/// "since sha256 0123456789ab". Returns "" if the code has not changed or is not known.
 std::string fixed_text(const Sightings& seen, const SubjectCode& now) {
   const SubjectCode& then = seen.last_code;
   const SubjectCode& next = seen.next_code == SubjectCode{} ? now : seen.next_code;

@@ -17,8 +17,8 @@ namespace nearmiss {
 
 namespace {
 
-/// A subject's families are compared with each other if there are at least this many pairs of family and
-/// kind.
+/// A subject's families are compared with each other if it has times for at least this many pairs of family
+/// and kind.
 constexpr std::size_t fewest_families = 8;
 /// Standard deviations of log(time now / time before) if nothing has changed. Their squares are added to the
 /// variance that follows from the spread among batches. For a family that is compared with the subject's
@@ -126,7 +126,7 @@ LogTimes log_times(const Statistics& statistics) {
 }
 
 /// Logarithms of the ratios time now / time before, one for each earlier campaign. Each logarithm is the sum
-/// of a common and an own part.
+/// of two parts, `common` and `own`.
 struct Ratios {
   std::vector<double> common = {};  ///< the part shared with other times, as on a busy machine
   std::vector<double> own = {};     ///< the part that other times do not share

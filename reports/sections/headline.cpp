@@ -169,8 +169,8 @@ ordered_json names_of(const Failures& failures) {
   return json;
 }
 
-/// The index of a subject's failure with the least exotic query; if several are equally exotic, the index of
-/// the gravest failure. A failure that counts comes before any failure that does not count.
+/// The index of a subject's simplest finding; null if the subject has none. Prefers, in this order, findings
+/// whose failure counts, less exotic queries, graver failures, and simpler shrunk queries.
 ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings,
                                const Failures& failing) {
   const auto rank = [&](const Finding& finding) {

@@ -27,11 +27,11 @@ Headline headline(const Statistics& statistics, const std::optional<Changes>& si
                   const Failures& failing = usual_failures());
 
 /// A list with an object for each subject, in the order of names. An object has
-///   the verdict on the subject, and its failures, the gravest first;
+///   the verdict on the subject, and a list of its failures, the gravest first;
 ///   the subject's place on the ladder of precisions (LadderPlace);
-///   its rates over all kinds, for all classes together and for each class;
+///   its rates: those of all its queries, and those of the families of each class;
 ///   its run times, and the number of its changes since the baseline;
-///   the index of its simplest failure in `findings`, or null.
+///   the index in `findings` of its simplest failure, or null.
 nlohmann::ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,
                                       const std::optional<Changes>& since,
                                       const Failures& failing = usual_failures());

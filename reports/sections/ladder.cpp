@@ -41,9 +41,9 @@ struct Rung : LadderPlace {
   [[nodiscard]] double farthest() const { return part() * claimed(); }
 };
 
-/// A fit of the farthest distances, one for each scalar of an algorithm, by a power of ε: a line through the
-/// logarithms of ε and of the distances, by least squares. A fit uses the queries of one origin, or of all
-/// origins.
+/// The farthest distance as a power of ε, fitted to one point (ε, farthest distance) for each scalar of an
+/// algorithm: a line through the logarithms, by least squares. A fit uses the queries of one origin, or of
+/// all origins.
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
@@ -52,8 +52,8 @@ struct Fit {
   int precisions = 0;                        ///< number of different ε
   double least_part = 0, greatest_part = 0;  ///< range of Rung::part()
 
-  /// Whether the farthest false positives almost reach the claimed distances. If so, the fit only repeats
-  /// the exponent in the formula of the claim.
+  /// Whether the farthest false positive of every rung almost reaches the claimed bound. If so, the fit only
+  /// repeats the exponent in the formula of the claim.
   [[nodiscard]] bool restates_the_bound() const { return least_part > 0.9; }
 };
 
@@ -84,7 +84,7 @@ LadderPlace place_of(const std::string& subject) {
                     *exponent, std::nullopt};
   if (!given_bound.empty()) return place;
   const auto name = algorithm.substr(0, algorithm.find(':'));  // without options
-  // basic, basic-plain and bridson claim no bound, so wang's bound is their unit.
+  // basic, basic-plain and bridson claim no bound, so wang's bound is the unit of their distances.
   if (name == "basic" || name == "basic-plain" || name == "bridson")
     place.unit = claimed_distance("wang", double_exponent);
   else if (name == "wang-tight")

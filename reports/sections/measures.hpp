@@ -71,7 +71,8 @@ nlohmann::ordered_json counts_json(const CountsSum& sum);
 
 nlohmann::ordered_json oracle_json(const OracleCounts& counts);
 
-/// An object with "all", "touching" and "times", and the number of pairs with each PairFate under its name.
+/// An object with the number of all pairs ("all"), the number of pairs with each PairFate (under the name of
+/// the fate), and the other counters of the Funnel.
 nlohmann::ordered_json funnel_json(const Funnel& funnel);
 
 /// Adds the oracle's "disagreements" and "mismatches_with_recorded_truth" to an object.

@@ -1,5 +1,5 @@
-// Tables that other commands write and reports show: how soon nearmiss finds known defects, and what CCDs
-// miss in environments.
+// Tables that other commands write, and that reports show: how soon nearmiss finds known defects, and what
+// CCDs miss in environments.
 #pragma once
 
 #include <cstdint>

@@ -51,8 +51,8 @@ std::map<std::string, ScenePairs> scenes_of(const Statistics& statistics) {
 
 using Row = std::vector<std::string>;
 
-/// A row with a number for each kind (`parts`), and this number as a percentage of the kind's number in
-/// `all`.
+/// A row of a table. For each kind, it has the number in `parts`, and this number as a percentage of the
+/// number in `all`.
 Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<std::uint64_t, 2> all) {
   Row cells{std::string(what)};
   for (std::size_t i = 0; i < 2; ++i) {

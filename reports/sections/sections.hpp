@@ -10,8 +10,9 @@
 
 namespace nearmiss {
 
-/// A line with the verdict on each subject (verdicts.hpp), a line for each pair of versions, the number of
-/// certified truths, and the tolerances that were measured. Only the failures in `failing` count.
+/// For each subject, a line with the verdict on it (verdicts.hpp); for each pair of versions, a line; then
+/// the number of certified truths, and the tolerances that were measured. Only the failures in `failing`
+/// count.
 std::string summary_lines(const Statistics& statistics, const Failures& failing = usual_failures());
 /// A longer summary. Its parts are, in this order:
 ///   the lines of summary_lines on subjects and versions
@@ -22,8 +23,8 @@ std::string summary_lines(const Statistics& statistics, const Failures& failing 
 ///   the oracle's counters, and the measured tolerances
 std::string summary_table(const Statistics& statistics, const Failures& failing = usual_failures());
 
-/// The edge lengths and the distances from the origin at which each subject is right (right_ranges): a row
-/// for each subject, or for each of its kinds if these differ.
+/// The edge lengths and the distances from the origin at which each subject is right (right_ranges). A
+/// subject has one row if its ranges are the same for all kinds, otherwise a row for each kind.
 std::string sizes_table(const Statistics& statistics);
 nlohmann::ordered_json sizes_json(const Statistics& statistics);
 
@@ -50,8 +51,8 @@ nlohmann::ordered_json funnels_json(const Statistics& statistics);
 
 /// A table for each simulated scene, with a line for each subject.
 std::string simulation_tables(const Statistics& statistics);
-/// An object by scene, then by subject. Each value has a list for each counter of SimulatedStep, with an
-/// entry for each step, and the list "step" with the numbers of the steps.
+/// An object by scene, then by subject. The object of a subject has the list "step" with the numbers of the
+/// steps, and for each counter of SimulatedStep a list of its values in these steps.
 nlohmann::ordered_json simulations_json(const Statistics& statistics);
 
 /// A table for each sweep of a family and each subject, with a row for each value of the family's parameter.
@@ -61,14 +62,15 @@ std::string sweep_tables(const Statistics& statistics);
 /// An object by family, then by subject: a list with an entry for each value of the family's parameter, in
 /// increasing order.
 nlohmann::ordered_json sweeps_json(const Statistics& statistics);
-/// An object with a list for each pattern NAME:KEY=*. The list is in the order of classes and values.
+/// An object with a list for each pattern NAME:KEY=*. The entries of a list are in the order of classes, and
+/// within a class in the order of values.
 nlohmann::ordered_json option_sweeps_json(const Statistics& statistics);
 nlohmann::ordered_json cliffs_json(const Statistics& statistics);
 
 /// Some subjects pass a query on, for example to the oracle, if their own algorithm is not sure. The tables
 /// have rows for each such subject, one row for all families, then one row for each family. A row says how
-/// many queries each stage decides, and gives the subject's run time divided by that of wang and by that of
-/// exact, if they have times.
+/// many queries each decider decides. It also gives the subject's run time divided by that of wang and by
+/// that of exact, if both subjects have times.
 std::string decider_tables(const Statistics& statistics);
 nlohmann::ordered_json deciders_json(const Statistics& statistics);
 
@@ -87,9 +89,9 @@ nlohmann::ordered_json ladder_json(const Statistics& statistics);
 ///   "front_by_distance"   the Pareto front by the farthest distance
 ///   "front_by_rate"       the Pareto front by the rate of false positives
 ///   "front_by_earliness"  the Pareto front by the 99 % quantile of earliness, for sound lower bounds
-///   "ladder"              only if an algorithm has at least three scalars: "front_by_distance" in units of
-///                         B, the size of a pair, because fractions of different bounds cannot be compared,
-///                         and the "paper_bound" of double
+///   "ladder"              only if an algorithm has at least three scalars: its "front_by_distance" is a
+///                         front by distances in units of B, the size of a pair, because fractions of
+///                         different bounds cannot be compared; its "paper_bound" is wang's bound in double
 nlohmann::ordered_json trade_offs_json(const Statistics& statistics);
 
 /// A subject's place on a precision ladder (one algorithm in several scalar types). For a subject that is not

@@ -29,14 +29,14 @@ using Sweep = std::map<double, CountsSum>;
 /// Sums of counters over all kinds, by class of families and value of a subject's option.
 using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
 
-/// Two neighbouring values of an option, and the misses among the collisions with each of them.
+/// Two neighbouring values of an option, and for each value the misses among the collisions.
 struct Cliff {
   QueryClass of{};  ///< class of the families
   double value = 0, next = 0;
   Proportion missed, missed_next;
 };
 
-/// A step of a sweep: the family or the option that is swept, and its value in this step.
+/// A step of a sweep: the name of the swept family or option, and the value that it has in this step.
 struct Step {
   std::string of;
   double value;

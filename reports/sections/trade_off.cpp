@@ -26,8 +26,8 @@ namespace {
 /// Run time and error of a subject, over the kinds and families that all compared subjects were asked about.
 struct TradeOff {
   std::string subject;
-  /// The sum over timed families. Rates, like run times, are computed from this sum, because it leaves out
-  /// the families of directed searches, which have no meaningful rates and are not timed.
+  /// The sum over the families that were timed, from which run times and rates are computed. It leaves out
+  /// the families of directed searches, which are not timed, and whose rates have no meaning.
   CountsSum timed;
   CountsSum all;
   LadderPlace place;
@@ -65,8 +65,8 @@ std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics
   return asked;
 }
 
-/// The largest set of subjects that were asked about the same family. Among equally large sets, the set that
-/// shares the most families.
+/// The largest set of subjects that were asked about the same family. If several sets are equally large,
+/// returns the set that was asked about the most families.
 Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>& asked) {
   std::map<Subjects, std::size_t> sets;
   for (const auto& [family, subjects] : asked) ++sets[subjects];
@@ -178,8 +178,8 @@ constexpr std::array references{"wang", "exact"};
 
 constexpr std::size_t decider_count = 4;
 
-/// Names of the deciders in files, in the order in which a subject asks them. A stage or rejection with one
-/// of the last three names belongs to that decider; every other stage or rejection belongs to "algorithm".
+/// Names of the deciders in files, in the order in which a subject asks them. If the stage or rejection of an
+/// answer has one of the last three names, that decider decided the query; otherwise "algorithm" did.
 constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer", "exact"};
 
 /// A subject's queries of a family, all kinds together, by the decider that decided them.
@@ -188,8 +188,8 @@ struct DeciderRow {
   std::string family;  ///< "" for all families; all steps of a scene count as one family
   std::array<std::uint64_t, decider_count> queries{};
   std::optional<double> ns_per_query;  ///< nothing if the subject was not timed
-  /// The subject's time divided by the time of wang and of exact (the keys), over the families and kinds that
-  /// have both times.
+  /// Maps "wang" and "exact" to the subject's run time divided by that of the named subject, over the
+  /// families and kinds in which both were timed.
   std::map<std::string, double> time_over;
 
   [[nodiscard]] std::uint64_t all() const;

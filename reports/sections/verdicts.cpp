@@ -49,8 +49,8 @@ std::pair<std::uint64_t, std::uint64_t> count_and_total(const std::map<Kind, Cou
 
 /// "ordinary vt 53 of 504, ee 2 of 701; degenerate 1,204 of 5,001": how often a failure happened, for each
 /// class of families and, in the first of these classes, for each kind. Leaves out classes and kinds without
-/// the failure, and the name of the class if only unclassified families have the failure. If ordinary
-/// families do not have it, "; no ordinary one of 504" follows.
+/// the failure, and the name of the class if only unclassified families have the failure. If the queries of
+/// ordinary families could fail, but none did, "; no ordinary one of 504" follows.
 std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   std::vector<std::string> classes;
   std::string no_ordinary_one;
@@ -93,7 +93,7 @@ Parts::const_iterator least_exotic_part(const Parts& parts, const FailureInfo& f
   });
 }
 
-/// How often a failure happened on queries of a class; 0 if the counters do not say.
+/// How often a failure happened on queries of a class; 0 if such failures are not counted by class.
 std::uint64_t count_of(const Counts& counts, const FailureInfo& failure, QueryClass of) {
   return failure.by_class == nullptr ? 0 : (counts.*failure.by_class)[static_cast<std::size_t>(of)];
 }
@@ -112,8 +112,9 @@ std::string class_and_kind(QueryClass of, Kind kind) {
 }
 
 /// "53 of 504 ordinary vt collisions": how often a failure happened in families of the class `in`, for each
-/// kind. If the classes of the failed queries are `known`, only for kinds with failed queries of the class
-/// `in`. Adds the kinds in the text to `said`. "" if there are none.
+/// kind. If `known`, the classes of the failed queries are known, and the text leaves out kinds without a
+/// failed query of the class `in`. Adds the kinds in the text to `said`. Returns "" if the text would have no
+/// kind.
 std::string said_of_families(const Parts& parts, const FailureInfo& failure, QueryClass in, bool known,
                              std::set<Kind>& said) {
   const auto part = parts.find(in);
@@ -227,9 +228,10 @@ std::string unjudged_text(const Counts& counts) {
   return "NO ANSWER IN TIME, " + slow_text(counts);
 }
 
-/// How often a failure happened, for each class of families. If the least exotic class of the failed queries
-/// differs from that of the families with the failure, the text begins with the queries of the former class:
-/// "3 ordinary vt collisions in extreme families; in all 40 of 5,000 in extreme families".
+/// How often a failure happened, for each class of families. Queries have classes of their own. If the least
+/// exotic failed query and the least exotic family with failures differ in class, the text begins with the
+/// failed queries of the least exotic class: "3 ordinary vt collisions in extreme families; in all 40 of
+/// 5,000 in extreme families".
 std::string failed_text(const OfSubject& subject, const FailureInfo& failure) {
   const auto in_queries = class_of_queries(subject, failure);
   if (!in_queries || *in_queries == least_exotic_part(subject.parts, failure)->first)

@@ -41,8 +41,8 @@ struct Proportion {
   }
 };
 
-/// The one-sided p-values of a test of two proportions, `now` and `before`: probabilities if both have the
-/// same rate.
+/// The one-sided p-values of a test of two proportions, `now` and `before`. They are probabilities under the
+/// assumption that both have the same rate.
 struct ExactTest {
   double more = 1;  ///< probability of a count at least as large as now.count
   double less = 1;  ///< probability of a count at most as large as now.count
@@ -59,8 +59,8 @@ double level_of(double risk, std::size_t tests);
 /// distribution, which gives larger p-values.
 ExactTest fisher_test(const Proportion& now, const Proportion& before);
 
-/// An exact test like fisher_test for several pairs {now, before} together, each with a rate of its own.
-/// Given the sum of a pair's counts, now.count is a sum of independent trials with mean probability
+/// An exact test like fisher_test, for several pairs {now, before} together. Each pair has its own rate.
+/// Given the sum of a pair's counts, now.count is a sum of independent trials; their mean probability is
 /// now.total / (now.total + before.total). The test uses the binomial distribution with the number of trials
 /// of all pairs and the mean of their probabilities. By Hoeffding's theorem (1956), at a distance of at least
 /// 1 from the expectation, the tails of this distribution are at least as large as those of the sum of

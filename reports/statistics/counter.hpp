@@ -22,7 +22,8 @@ struct Counter {
   std::string_view name;  ///< key in the store, and column of statistics.csv
   Member Owner::*member;
   std::string_view json_key = name;
-  /// Key of the object in report.json that contains the counter. If empty, that is the owner's object.
+  /// Key of the object in report.json that contains the counter. If empty, the owner's object contains the
+  /// counter.
   std::string_view json_object{};
 };
 template <class Owner, class Member, class... More>
@@ -58,8 +59,8 @@ constexpr bool declares_all_members() {
   return declared == sizeof(Owner);
 }
 
-/// The largest sum of counts; as a sum of nanoseconds, 36 years. A few sums of this size add up without
-/// overflow.
+/// The largest sum of counts that is accepted; a sum of nanoseconds may reach 36 years. A few sums of this
+/// size add up without overflow.
 inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 60U;
 
 /// Throws Error if the sum is greater than largest_count.

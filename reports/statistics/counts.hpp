@@ -25,7 +25,7 @@ namespace nearmiss {
 /// among the farthest apart, or a time that is among the earliest or the latest relative to t*, the exact
 /// earliest time.
 struct FarCase {
-  double ratio = 0;  ///< distance divided by the bound (Counts::distance_unit), or |time - t*|
+  double ratio = 0;  ///< as Outcome::ratio, in the unit Counts::distance_unit; or |time - t*|
   Query query;
   std::string provenance;  ///< "family:seed:index", or the file and line
 
@@ -43,15 +43,15 @@ void keep_farthest(std::vector<FarCase>& kept, double ratio, const Query& query,
 struct TimeError {
   double early = 0;  ///< t* - time if that is positive, as precise as Outcome::ratio
   double after = 0;  ///< time - t* if that is positive, as precise as Outcome::ratio
-  /// How early the time is, as a distance divided by B, the size of the pair, rounded. The distance is an
-  /// upper bound of how far a vertex of one primitive moves relative to a vertex of the other between the
-  /// time and t*.
+  /// How early the time is, measured as a distance, divided by B, the size of the pair, and rounded. The
+  /// distance is an upper bound of how far a vertex of one primitive moves relative to a vertex of the other
+  /// between the time and t*.
   double travelled = 0;
   bool promised = false;  ///< the subject promises that the time is a lower bound
   bool late = false;      ///< contact, or a distance below the separation h, before a promised lower bound
   bool stuck = false;     ///< the time is 0, although t* is not 0
-  /// The time is promised and not late, but the rounded step to it (fuzz/trial/committed.hpp) has contact,
-  /// or a distance below h, before its end.
+  /// The time is promised and not late, but the rounded step to it (fuzz/trial/committed.hpp) has contact, or
+  /// a distance below h, before the end of the step.
   bool committed = false;
   bool unsafe_step = false;  ///< `committed` holds, although the subject promises a step without contact
   /// The time is promised and not late, and the rounded step to it has contact only at its end.
@@ -64,9 +64,9 @@ struct TimeError {
 struct Outcome {
   Verdict verdict;
   bool collision = false;
-  /// For a false positive: the certified smallest distance over [0, 1] divided by the claimed bound, rounded
-  /// up within its Histogram bin. The relative error is at most 1/1000 if the ratio is above the first bin
-  /// and may be among the largest (Counts::farthest).
+  /// For a false positive: the certified smallest distance over [0, 1], minus the separation, divided by the
+  /// claimed bound, rounded up within its Histogram bin. The relative error is at most 1/1000 if the ratio is
+  /// above the first bin and large enough for Counts::farthest.
   double ratio = 0;
   bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
   double bound = 0;            ///< the claimed bound, if it is refuted
@@ -191,7 +191,7 @@ struct Counts {
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
   /// The largest time - t*; 0 if no time is after t*.
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
-  /// The smallest ratio of a further case that the list `kept` would keep; 0 until the list is full.
+  /// A further case must have at least this ratio for the list `kept` to keep it; 0 until the list is full.
   [[nodiscard]] static double least_kept(const std::vector<FarCase>& kept) {
     return kept.size() < far_cases ? 0 : kept.back().ratio;
   }
@@ -200,22 +200,24 @@ struct Counts {
     constexpr auto stage = static_cast<std::size_t>(Stage::unknown);
     return true_by_stage[stage] + false_by_stage[stage];
   }
-  /// The sort of the subject's times: lower bounds if it promised that all of them are, estimates otherwise.
+  /// The sort of the subject's times: lower bounds if the subject promised this of all its times, estimates
+  /// otherwise.
   [[nodiscard]] TimeSort time_sort() const {
     if (times_given == 0) return TimeSort::none;
     return times_promised == times_given ? TimeSort::lower_bound : TimeSort::estimate;
   }
-  /// The bin of a quantile of t* - time, over the times that are not after t*: for a fraction `part` of
-  /// these, the error is at most the bin's upper end. The upper end is at most the largest error.
+  /// The bin that holds a quantile of the error t* - time, over the times that are not after t*: a fraction
+  /// `part` of these times have an error of at most the bin's upper end. The upper end is at most the largest
+  /// error.
   [[nodiscard]] Bin early_quantile(double part) const {
     const Bin bin = early.quantile(part);
     return {bin.from, std::min(bin.to, max_early())};
   }
-  /// The bin of a quantile of |time - t*|, over all given times.
+  /// The bin that holds a quantile of |time - t*|, over all given times.
   [[nodiscard]] Bin time_error_quantile(double part) const;
   [[nodiscard]] double max_time_error() const { return std::max(max_early(), max_after()); }
-  /// The bin of a quantile of distance / bound: a fraction `part` of the false positives have at most the
-  /// ratio at the bin's upper end. The bin's upper end is at most the largest ratio.
+  /// The bin that holds a quantile of the ratio distance / bound: a fraction `part` of the false positives
+  /// have a ratio of at most the bin's upper end. The bin's upper end is at most the largest ratio.
   [[nodiscard]] Bin ratio_quantile(double part) const {
     const Bin bin = distances.quantile(part);
     return {bin.from, std::min(bin.to, max_ratio())};

@@ -14,12 +14,14 @@ namespace nearmiss {
 /// The most extreme query that was found for one tolerance, or for one group of tests.
 struct Extreme {
   enum class Of : std::uint8_t {
-    /// The largest factor on the tolerance with which the algorithm misses a collision; 0 if there is none.
+    /// The largest factor such that the algorithm misses a collision if the tolerance is multiplied by it; 0
+    /// if there is none.
     accepting_tolerance,
-    /// For a tolerance that keeps degenerate primitives out, the smallest factor with which the algorithm
-    /// misses a collision; infinity if there is none.
+    /// For a tolerance that keeps degenerate primitives out: the smallest factor such that the algorithm
+    /// misses a collision if the tolerance is multiplied by it; infinity if there is none.
     keeping_tolerance,
-    /// The largest distance / bound of the tests' false positives; 0 if there are none.
+    /// The largest ratio distance / bound of the false positives of a group of tests; 0 without false
+    /// positives.
     distance,
   };
 

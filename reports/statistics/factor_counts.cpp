@@ -111,9 +111,9 @@ FactorCounts sum_of(std::span<const Level> levels) {
   return sum;
 }
 
-/// The answers at five successive values without misses, chosen so that the rate of false positives is
-/// lowest. If there are fewer than five values without misses, the answers at all of these. (Values with
-/// misses do not count: a CCD that misses everything has no false positives.)
+/// The sum of the answers at five successive values, chosen so that their rate of false positives is lowest.
+/// Ignores values with misses, because a CCD that misses everything has no false positives. If fewer than
+/// five values remain, returns the sum over all of them.
 FactorCounts best_answers(std::vector<Level> levels) {
   constexpr std::size_t most = 5;
   std::erase_if(levels, [](const Level& each) { return each.misses; });

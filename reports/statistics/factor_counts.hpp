@@ -17,7 +17,8 @@
 
 namespace nearmiss {
 
-/// Identifies the queries of a family that a subject answered and that have given values of factors.
+/// Identifies a set of queries: those of one kind and family that a subject answered, and whose factors have
+/// the given values.
 struct FactorKey {
   std::string subject;
   Kind kind{};
@@ -56,7 +57,8 @@ using FactorTable = std::map<FactorKey, FactorCounts>;
 void count_answer(FactorTable& table, const FactorKey& key, std::span<const std::string> values,
                   bool collides, bool reported);
 
-/// A value of one factor, or values of two factors, that many of a subject's misses have.
+/// A value of one factor, or one value of each of two factors, that many of a subject's misses have in
+/// common.
 struct CommonFactors {
   FactorKey key;
   FactorCounts with;  ///< the answers to queries that have the values

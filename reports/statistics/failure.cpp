@@ -11,7 +11,7 @@ namespace nearmiss {
 namespace {
 
 /// The number of queries that a subject did not answer because it was slow: the queries over the time limit,
-/// and the queries that the subject was not asked after several of these.
+/// and the queries that the subject was not asked because several queries had exceeded the limit.
 std::uint64_t slow(const Counts& counts) {
   return counts.without_answer(Fault::time) + counts.without_answer(Fault::not_asked);
 }
@@ -122,7 +122,7 @@ bool is_slow(std::string_view signature) {
 using What = Finding::What;
 using FailureAndFinding = std::pair<FailureKind, What>;
 
-/// The sort of finding that each kind of failure makes, for the kinds that make findings.
+/// For each kind of failure that makes findings, the sort of these findings.
 constexpr std::array<FailureAndFinding, 9> findings{{
     {FailureKind::oracle_disagreement, What::oracle_disagreement},
     {FailureKind::wrong_truth, What::truth_mismatch},

@@ -36,8 +36,8 @@ struct FailureInfo {
   FailureKind kind;
   std::string_view name;  ///< in files, in reports, and for --fail-on
   bool on_request;        ///< whether it counts only on request
-  /// The words for "missed 3 of 50 ordinary vt collisions": the verb, and the singular and the plural of the
-  /// noun; "" for failures of the oracle.
+  /// The words for a text like "missed 3 of 50 ordinary vt collisions": the verb ("missed"), and the noun in
+  /// the singular and in the plural ("collision", "collisions"). They are "" for failures of the oracle.
   std::string_view verb, one, many;
   std::uint64_t (*count)(const Counts&);  ///< how often a subject failed in this way, out of `total`
   std::uint64_t (*total)(const Counts&);

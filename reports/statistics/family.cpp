@@ -14,7 +14,8 @@ FamilyName::FamilyName(std::string_view name) : base(name.substr(0, name.find_fi
   for (const std::string_view each :
        {miss_search_family, far_search_family, late_search_family, early_search_family})
     if (root.starts_with(each)) search = name.substr(0, base.size() - root.size() + each.size() - 1);
-  // The name of a search's subject may contain a ~, so the last ~ counts.
+  // The family of a search contains the name of a subject, which may have a ~. So the last ~ begins the
+  // separation.
   const auto tilde = std::min(search.empty() ? name.find('~') : name.rfind('~'), name.size());
   if (tilde < name.size()) separation = name.substr(tilde + 1);
   if (base.size() < tilde) value = name.substr(base.size() + 1, tilde - base.size() - 1);

@@ -22,7 +22,8 @@ bool is_random(std::string_view family);
 /// families keep their names.
 std::string shown_family(std::string_view family);
 
-/// The origin of queries: "directed search", or their family.
+/// The origin of a family's queries: "directed search" for the family of a directed search, otherwise the
+/// family itself.
 std::string_view origin(std::string_view family);
 
 /// The name that all steps (NAME@VALUE) of a sweep share, because the steps make the same random draws and
@@ -43,7 +44,7 @@ std::string scene_of(const std::string& step);
 /// ordinary; other simulations are unclassified.
 QueryClass class_of(std::string_view family);
 
-/// Identifies the counters of a subject and kind over the families of a class.
+/// Identifies the counters of one subject and kind, summed over the families of one class.
 struct ClassKey {
   std::string subject;
   Kind kind{};

@@ -31,7 +31,7 @@ struct FamilyName {
   [[nodiscard]] std::string text() const;
 };
 
-/// NAME~SEPARATION, for a name without a separation.
+/// Appends a separation to a name that has none: NAME~SEPARATION.
 std::string name_with_separation(std::string_view name, std::string_view separation);
 
 }  // namespace nearmiss

@@ -48,11 +48,11 @@ struct Finding {
   std::string broken_since = {};
   double bound = 0;  ///< the bound that the subject claims for the shrunk query, if it is refuted
   Query step = {};   ///< the rounded step to `time`, if the finding has_step()
-  /// A line of JSON that proves, for the shrunk query, the statement by which the oracle contradicts the
-  /// subject (tools/certificates/README.md); "" without a proof.
+  /// A proof that the oracle is right where it contradicts the subject on the shrunk query, as a line of JSON
+  /// (tools/certificates/README.md); "" without a proof.
   std::string certificate = {};
-  /// For a fault: the end of what the subject's process wrote to standard error before it ended, with the
-  /// stack of a crash, as lines of printable text; "" if it wrote nothing.
+  /// For a fault: the end of the text that the subject's process wrote to standard error, as printable lines;
+  /// "" if it wrote nothing. After a crash, the text includes the functions on the stack.
   std::string errors = {};
 
   bool operator==(const Finding&) const = default;
@@ -65,12 +65,12 @@ inline constexpr std::array<std::string_view, 8> what_names{
 
 constexpr std::string_view name(Finding::What what) { return what_names[static_cast<std::size_t>(what)]; }
 
-/// Whether a finding of this sort is about the step to the subject's time.
+/// Whether a finding of this sort is about the rounded step to the time that the subject gave.
 constexpr bool has_step(Finding::What what) {
   return what == Finding::What::committed || what == Finding::What::unsafe_step;
 }
 
-/// Whether a finding of this sort has the subject's time.
+/// Whether a finding of this sort stores the time that the subject gave.
 constexpr bool has_time(Finding::What what) { return what == Finding::What::late || has_step(what); }
 
 /// Whether reports show findings of this sort without counting them as failures. Such a finding breaks no

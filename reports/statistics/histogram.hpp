@@ -71,8 +71,8 @@ struct Histogram {
   static double lower_border(double ratio);
   /// The number of ratios that are at least 1. This number is exact, because 1 is a border.
   [[nodiscard]] std::uint64_t at_least_one() const;
-  /// The bin that holds a quantile: the smallest ratio r such that a fraction `part`, in (0, 1], of all
-  /// ratios is at most r. Returns (0, 0) if all bins are empty.
+  /// The bin that holds a quantile. The quantile is the smallest ratio r such that a fraction `part` of all
+  /// ratios is at most r; `part` is in (0, 1]. Returns (0, 0) if all bins are empty.
   [[nodiscard]] Bin quantile(double part) const;
 
   bool operator==(const Histogram&) const = default;

@@ -44,8 +44,9 @@ struct VersionKey {
   }
 };
 
-/// Counts the queries that both versions were asked, by which of them fail. A version fails if it misses a
-/// collision, gives a late time, promises an unsafe step, exceeds its claimed bound, or gives no answer.
+/// Counts the queries that both versions were asked, by which of the versions fail. A version fails if it
+/// misses a collision, gives a late time, promises an unsafe step, exceeds its claimed bound, or gives no
+/// answer.
 struct VersionCounts {
   std::uint64_t fixed = 0;    ///< only the earlier version fails
   std::uint64_t broken = 0;   ///< only the later version fails

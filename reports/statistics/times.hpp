@@ -95,8 +95,8 @@ struct SubjectTimes {
 
   /// The number of queries that were timed in batches.
   [[nodiscard]] std::uint64_t queries() const;
-  /// Time per query in ns: the mean, weighted by numbers of queries, of the median time of each kind and
-  /// family. Nothing if no query was timed.
+  /// Time per query in ns: the median time of each pair of kind and family, averaged over these pairs with
+  /// their numbers of queries as weights. Nothing if no query was timed.
   [[nodiscard]] std::optional<double> ns_per_query() const;
   /// Mean time of all timed queries in ns. Unlike the medians, it shows rare slow queries and disturbances.
   /// Nothing if no query was timed.

@@ -25,8 +25,9 @@ class FileLock {
   int descriptor_ = -1;
 };
 
-/// The path of a store's log with this ending. SQLite keeps the log beside the store while a process writes
-/// the store; if that process is killed, the log remains.
+/// The path of a log of a store: the path of the store with `ending` ("-wal" or "-journal") appended. SQLite
+/// keeps the log beside the store while a process writes the store; if that process is killed, the log
+/// remains.
 std::filesystem::path log_of(const std::filesystem::path& file, std::string_view ending);
 
 /// Opens a store to read it. Opening changes the store only if a process was killed while it wrote the store

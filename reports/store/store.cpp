@@ -129,8 +129,8 @@ auto naming(const fs::path& file, const Act& act) {
   }
 }
 
-/// Raises the count of each signature to at least the number of its stored findings: the row of the count
-/// may be lost.
+/// Raises the count of each signature to at least the number of its stored findings, because the row that has
+/// the count may be lost.
 void count_findings(Campaign& campaign) {
   std::map<Signature, std::uint64_t> stored;
   for (const Finding& finding : campaign.findings()) ++stored[signature_of(finding)];
@@ -230,7 +230,7 @@ void refuse_existing(const fs::path& file) {
 struct Store::Database {
   explicit Database(fs::path path) : file(std::move(path)), lock(file) {}
 
-  /// Runs `act` with a Save, in one transaction, and commits it.
+  /// Runs `act` with a Save, which is one transaction, and commits this transaction.
   template <class Act>
   void change(const Act& act) {
     naming(file, [&] {
@@ -329,7 +329,8 @@ void write_campaign(const Campaign& campaign, const fs::path& file) {
   PartFile part(file);
   naming(file, [&] {
     SQLite::Database db(part.path().string(), SQLite::OPEN_READWRITE);
-    // No other process sees the file yet, so it needs no log on the disk, which may be nearly full.
+    // No other process sees the file yet, so SQLite can keep its journal in memory: the disk may be nearly
+    // full.
     db.exec("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = FULL;");
     Save save(db);
     write_campaign(save, campaign);

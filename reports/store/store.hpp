@@ -72,8 +72,8 @@ struct Salvage {
 /// version. Throws Error if the file cannot be read, or has no intact row.
 Salvage salvage_campaign(const std::filesystem::path& file);
 
-/// Writes a campaign to a new file, all of it or nothing. Throws Error if the file exists or cannot be
-/// written.
+/// Writes a campaign to a new file; after an error, there is no new file. Throws Error if the file exists or
+/// cannot be written.
 void write_campaign(const Campaign& campaign, const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -1,5 +1,5 @@
-/* Arithmetic of known length: a chain of multiply-adds, each with two rounded operations. Each waits for the
- * result of the one before. */
+/* Arithmetic of known length: a chain of multiply-adds, each with two rounded operations. A multiply-add
+ * waits for the result of the previous one. */
 #ifndef NEARMISS_KNOWN_TIME_H
 #define NEARMISS_KNOWN_TIME_H
 

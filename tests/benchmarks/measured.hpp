@@ -12,8 +12,8 @@
 
 namespace nearmiss {
 
-/// Queries of one kind from the uniform family. Ten thousand of them are too many for a branch predictor to
-/// memorise, as are those of a campaign.
+/// Queries of one kind from the uniform family. A branch predictor cannot memorise ten thousand of them, nor
+/// can it memorise the queries of a campaign.
 inline std::vector<Query> uniform_queries(Kind kind, std::size_t count) {
   const Family uniform = find_family("uniform");
   std::vector<Query> queries;

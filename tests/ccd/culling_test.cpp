@@ -48,8 +48,8 @@ Tolerances<double> tolerances(double h) {
   return tol;
 }
 
-/// The value that |F| must exceed next to a root: μ + 2E + m, with E = 865 ε, the error of the computed F,
-/// and m = 60 ε, which the solver's nodes add.
+/// The threshold that |F| must exceed at both ends of the interval around a root: μ + 2E + m, where E = 865 ε
+/// is the error of the computed F, and the solver's nodes add m = 60 ε.
 constexpr double threshold = 0x1p-40 + (2 * 865 + 60) * eps;
 /// The rounding errors of a weight, and of the bound on the weight's movement.
 constexpr double rounding = (1160 + 4400) * eps;
@@ -70,7 +70,7 @@ TEST(VeCulling, AnIntervalForEachRootLeavesAWeightRoomForItsMovementAndForRoundi
   }
 }
 
-// In a wider scalar, only the errors of the relative vectors remain.
+// If the weights are computed in a wider scalar, only the rounding errors of the relative vectors remain.
 TEST(VeCulling, WeightsInAWiderScalarNeedLessRoomForRounding) {
   const double slack = 2 * std::sqrt(3.0) * 4 * threshold + (590 + 3700) * eps;
   const auto is_culled = [](double weight) { return culled<VeCulling::per_root, long double>(1, weight); };
@@ -120,7 +120,7 @@ TEST(VeCulling, TimesOutsideTheStepNeedNotBeBracketed) {
   EXPECT_FALSE(detail::brackets_root(F, 0.75, 0.5, 1.0));
 }
 
-// Four thresholds must be less than the slope, so that the half width h, their quotient, is less than 1.
+// The half width h is four thresholds divided by the slope. It must be less than 1.
 TEST(VeCulling, AnIntervalForEachRootNeedsASlopeAboveFourThresholds) {
   EXPECT_FALSE(culled<VeCulling::per_root>(4 * threshold, -9));
   EXPECT_TRUE(culled<VeCulling::per_root>(4 * threshold * (1 + 0x1p-20), -9));
@@ -146,7 +146,8 @@ TEST(Frame, IsNotNeededWhereNothingLeavesTheRange) {
   for (const float B : {0x1p-7F, 0x1p7F}) EXPECT_FALSE(in_range(B)) << B;
 }
 
-// B = (E + W)(1 + 64 ε). Here, the edges are within E = 1, and the relative velocity is W = 2.
+// B = (E + W)(1 + 64 ε). Here, E, the bound of the edges, is 1, and W, the bound of the relative velocities,
+// is 2.
 TEST(PairBound, HasAMarginOf64Epsilon) {
   const auto pair = make_pair<Kind::vertex_triangle, double>(testing::falling_vertex(0.25, 0.25, 1, -1));
   EXPECT_EQ(pair.E, 1);

@@ -119,8 +119,8 @@ TEST(VertexEdge, Case3WhereTwoEdgeComponentsAreEqual) {
 }
 
 TEST(VertexEdge, Case5OutsideOfTheEdge) {
-  // D is the threshold for two vertices. The vertex passes the end xj at a third of D, outside of the edge,
-  // so the vertex's projection is never inside the edge.
+  // D is the threshold for two vertices. The vertex passes beyond the edge's end xj, at a distance of D / 3
+  // from it, so the vertex's projection is never inside the edge.
   const double d = std::sqrt(tol.D2) / 3;
   const auto pair = vertex_edge_pair(moving({0.5 + d, -0.5, 0}, {0, 1, 0}), moving({0.5, 0, 0}, {0, 0, 0}));
   EXPECT_EQ(vertex_edge(pair, tol).stage, Stage::vv);
@@ -139,8 +139,8 @@ double distance_to_edge(const VertexEdge<double>& pair, double t) {
   return (a - w * edge).norm();
 }
 
-/// A pair whose vertex is at `distance` from a point of the edge at a random time, `time`. All vectors are
-/// within 1.
+/// A pair whose vertex is at `distance` from a point of the edge at a random time, `time`. The components of
+/// the edge and of the velocities are at most 1/2.
 VertexEdge<double> pair_at_distance(Random& random, double distance, double& time) {
   const Vector edge = random.vector(random.log_uniform(1e-6, 0.5));
   const Vector edge_velocity = random.vector(random.log_uniform(1e-6, 0.5));

@@ -40,8 +40,8 @@ TEST(ClosestApproach, DoesNotTellACollisionFromContact) {
   }
 }
 
-/// Interval arithmetic in double once gave far more than the smallest distance for this query: 4.85e-08 times
-/// the bound of a CCD.
+/// For this query, interval arithmetic in double once gave a distance far above the smallest one: 4.85e-08
+/// times the bound of a CCD.
 TEST(DistanceInUnits, ASliversDistanceIsKnown) {
   const Query query = make_query(find_family("sliver"), 77, 454);
   const Enclosure distance = minimum_distance(query);

@@ -25,7 +25,7 @@ std::vector<std::string_view> names_of(bool (RoundingConstant::*property)() cons
 }
 
 // The paper assumes that relative positions of edges are within B, the pair's bound. All constants that
-// depend on this assumption, except δ, that of a squared distance, are too small.
+// depend on this assumption are too small, except δ, the constant of a squared distance.
 TEST(Audit, FindsWhatThePaperHasTooSmall) {
   EXPECT_THAT(names_of(&RoundingConstant::is_too_small),
               ElementsAre("VE of EE: weight", "VE of EE: barycentric test", "EE: weight, far p",

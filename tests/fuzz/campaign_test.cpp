@@ -131,7 +131,7 @@ TEST(Campaign, ShardsAddUpToTheWhole) {
   EXPECT_EQ(sum, whole.statistics);
 }
 
-/// A subject that never reports a collision, and sets `stop` after this number of queries.
+/// A subject that never reports a collision, and sets `stop` when it has been asked `queries` queries.
 std::unique_ptr<Subject> stopping(std::atomic<bool>& stop, std::uint64_t queries) {
   const auto left = std::make_shared<std::atomic<std::uint64_t>>(queries);
   return std::make_unique<testing::MadeUpSubject>("stopping", [&stop, left](const Query&) {

@@ -38,8 +38,8 @@ std::optional<bool> is_true(const Statement& statement) {
   auto time = earliest_time(query);
   if (!time) return is_apart;
   const double end = statement.to.get_d();
-  // In a query with a separation, `time` is the first time at which the distance is the separation. A later
-  // time is late only if the distance is below the separation before it.
+  // In a query with a separation, `time` is the first time at which the distance equals the separation. A
+  // later time is late only if the distance falls below the separation before that later time.
   const bool within = time->is_before(statement.open ? end : std::nextafter(end, 2.0));
   const bool below =
       query.separation > 0 && time->makes_late(statement.open ? end : std::nextafter(end, 2.0));

@@ -1,4 +1,4 @@
-// The step that a solver takes, up to a lower bound of the time of impact.
+// The step that a solver takes if it advances up to a lower bound of the time of impact.
 #include "fuzz/trial/committed.hpp"
 
 #include <gtest/gtest.h>
@@ -124,8 +124,8 @@ TEST(Committed, NoneIfTheStepEndsWellBeforeContact) {
   const Counts counts = counts_of(false, 0.01, "uniform");
   EXPECT_EQ(counts.committed, 0);
   EXPECT_GT(counts.times_promised, 40);
-  // In float, far from the origin, even times that are a hundredth of the step early lead to steps with
-  // contact.
+  // In float, far from the origin, a time may be early by a hundredth of the step, and the step to it may
+  // still have contact.
   EXPECT_GT(counts_of(true, 0.01, "distant@20").committed, 0);
 }
 

@@ -70,7 +70,7 @@ TEST(Corpus, EveryWangReportsEveryCollision) {
   }
 }
 
-// A defect that no longer misses any case would measure nothing.
+// `nearmiss power` measures how soon a campaign finds a defect, so each defect must miss a collision.
 TEST(Corpus, EachDefectMissesItsOwnCase) {
   std::set<std::string> missed;
   read_cases(NEARMISS_CORPUS "/defects", [&](const Case& each) {

@@ -84,9 +84,9 @@ int sign_changes(const Query& query) {
 }
 
 TEST(Crossed, FHasTheRootsOfItsFactor) {
-  // For a value of the factor `roots`, `at_contact` has the multiplicity of the root at the contact, or 0 if
-  // F is zero everywhere; values with multiplicity 1 are left out. `simple` has the number of roots in the
-  // step for each value with which all of them are simple.
+  // Both maps have values of the factor `roots` as keys. `at_contact` gives the multiplicity of the root at
+  // the contact, or 0 if F is zero everywhere; it leaves out multiplicity 1. `simple` has the values for
+  // which all roots are simple, and gives the number of roots in the step.
   const std::map<Roots, int> at_contact{{Roots::all, 0}, {Roots::double_root, 2}, {Roots::triple, 3}};
   const std::map<Roots, int> simple{{Roots::one, 1}, {Roots::two, 2}, {Roots::three, 3}};
   int counted = 0;

@@ -174,8 +174,8 @@ TEST(DistanceTrial, AnAnswerThatChangesIsAFault) {
 }
 
 TEST(DistanceTrial, TellsAtWhichSizesAFunctionIsRight) {
-  // This defect takes edges shorter than 2^-10 for points. Some edges are much shorter than the usual edges
-  // of queries with the same value of the factor `edge`.
+  // This defect takes edges shorter than 2^-10 for points. Among the queries with one value of the factor
+  // `edge`, some edges are much shorter than usual.
   QuestionPlan plan = usual(15'000);
   plan.families = {find_family("rest-units")};
   plan.kinds = {Kind::vertex_triangle, Kind::edge_edge};

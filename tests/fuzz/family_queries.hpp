@@ -29,8 +29,8 @@ inline std::string name_of_test(const ::testing::TestParamInfo<Family>& info) {
   return name;
 }
 
-/// The number of queries to test of each family: the environment variable NEARMISS_QUERIES, which is for long
-/// runs by hand; if it is not set, `usual`.
+/// How many queries of each family to test: `usual`, unless the environment variable NEARMISS_QUERIES gives
+/// another number for a long run by hand.
 inline std::uint64_t query_count(std::uint64_t usual) {
   const char* const given = std::getenv("NEARMISS_QUERIES");
   return given == nullptr ? usual : std::stoull(given);

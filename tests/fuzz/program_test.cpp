@@ -45,7 +45,7 @@ while header := sys.stdin.buffer.read(24):
   }
 
   /// Asks program(then) about three queries, of which only the last one has x[0] = 1. The last query must get
-  /// this fault, code and text.
+  /// this fault, with this code and text.
   void expect_fault(const std::string& then, Fault fault, int code = 0, const std::string& text = "") const {
     const auto time = std::chrono::milliseconds(fault == Fault::time ? 40 : 200);
     const auto subject = make_any_subject(program(then), std::nullopt, {.time = time});

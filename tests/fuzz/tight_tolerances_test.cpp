@@ -45,8 +45,8 @@ Tolerances<CgalInterval> enclosed(const T& B) {
   return all;
 }
 
-/// The largest E that the constraints allow for the length below which an edge counts as short: E² = 4 (R² -
-/// r²), with R² = S²/8 and r as in `constraints`.
+/// An edge counts as short if it is shorter than a length E. Returns the largest E that the constraints
+/// allow: E² = 4 (R² - r²), with R² = S²/8 and r as in `constraints`.
 CgalInterval longest_short_edge(const Tolerances<CgalInterval>& tol,
                                 const RoundingErrors<CgalInterval>& errors) {
   const CgalInterval r = (tol.mu + errors.residual) / (tol.tau - errors.area);
@@ -173,7 +173,7 @@ TEST(ToleranceTable, HasTheseBounds) {
 
 // As ε grows, the closed forms, which are the paper's formulas for the tolerances, first violate the
 // constraint of the cubic solver: μ = 64 ε^¾ must be at least 33492 ε. The solver needs less than 33492 ε, so
-// μ is too small only below 13 bits.
+// μ is too small only for scalars with fewer than 13 bits.
 TEST(ToleranceTable, ClosedFormsAreFailureProofFromThirteenBitsOn) {
   for (const ToleranceRow& row : tolerance_table()) {
     EXPECT_EQ(row.printed_breaks, row.exponent >= -36 ? "solver" : "") << row.exponent;

@@ -139,9 +139,9 @@ TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
   EXPECT_EQ(counts_of(hold_trial(one(make_subject("wang")), many)).faults_total(), 0);
 }
 
-// Queries of different seeds have the same numbers and the same places in batches. If samples were chosen by
-// number only, the sample would have the same places for every seed, and answers at other places would never
-// be checked.
+// A query's number, and so its place in a batch, does not depend on the seed. If samples were chosen by
+// number only, they would have the same places for every seed, and answers at other places would never be
+// checked.
 TEST(Trial, AnAnswerThatDependsOnThePlaceInABatchIsAFault) {
   const Family family = find_family("uniform-slow");
   for (const std::size_t wrong : {0, 12}) {

@@ -13,7 +13,7 @@ using ::testing::ElementsAre;
 TEST(UnitsFamily, NamesTheFactorByWhichItsAnswersAreCounted) {
   EXPECT_THAT(factors_of(find_family("units@-9"), 1, 5), ElementsAre("edge=2^-9"));
   EXPECT_THAT(factors_of(find_family("v-distant@20~drawn"), 1, 5), ElementsAre("distance=2^20"));
-  // If the parameter has no fixed value, the factor has the value that the query draws.
+  // If the parameter has no fixed value, the factor has the value that is drawn for the query.
   const Family units = find_family("units");
   for (std::uint64_t i = 0; i < 50; ++i) {
     const std::string factor = factors_of(units, 1, i).at(0);

@@ -134,8 +134,8 @@ TEST(TolerancesOfVertices, AGivenBReplacesThePairs) {
   EXPECT_REFUSED(make_subject("wang-plain@1e-9")->decide(query), "is smaller than a pair's own");
 }
 
-// Tests wang's bounds in two cases: the primitives have the smallest coordinates, or the given B is one that
-// the scalar cannot represent.
+// Tests wang's bounds for primitives with the smallest coordinates, and for a given B that the scalar cannot
+// represent.
 TEST(TolerancesOfVertices, BoundsOfNarrowScalarsHoldAtTheEndsOfTheRange) {
   for (const char* name : {"wang:float", "wang-tight:float", "wang:p16", "wang-tight:dd"}) {
     const auto subject = make_any_subject(name);

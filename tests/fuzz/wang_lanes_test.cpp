@@ -79,8 +79,8 @@ std::vector<Answer> careful(std::span<const Query> queries, double given) {
 }
 
 /// Bounds B to give to wang. Some are at or beyond an end of the range in which no scaling is needed. The
-/// others come from the queries' own bounds: the largest own bound and some others, multiplied by factors
-/// from 1 to 2^60, and the doubles just below some own bounds.
+/// others are own bounds of the queries: the largest and some others, each multiplied by a factor from 1 to
+/// 2^60, and the doubles just below some of them.
 std::vector<double> bounds_for(std::span<const Query> queries) {
   constexpr double most = std::numeric_limits<double>::max();
   std::vector<double> own;

@@ -47,7 +47,7 @@ check fast-math g++ gcc "-O3 -ffast-math -march=native" -DWITH_TEMPLATES=OFF
 # With -march=native, clang 19 warns on some processors about a feature of their vector instructions.
 check clang-fast-math clang++ clang "-O3 -ffast-math -march=native -Wno-unknown-warning-option -Wno-invalid-feature-combination" -DWITH_TEMPLATES=OFF
 
-# The templates refuse unsafe flags. Compiled with clang++, they can recognise only the first two flags below.
+# The templates refuse unsafe flags. With clang++, the templates can recognise only the first two flags below.
 refuse_flags() {
   local compiler=$1 flags
   shift

@@ -81,7 +81,8 @@ def configure():
         'CMAKE_CXX_COMPILER': 'g++',
         # Mutants cause many warnings.
         'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS -w',
-        # Defective subjects are made by edits of headers, which may not fit a header with a mutant.
+        # Edits of headers make defective subjects. An edit may not fit a header with a mutant,
+        # so the edits start from the original headers.
         'nearmiss_unedited': ROOT,
     }
     words = [f'-D{name}={value}' for name, value in options.items()]
@@ -127,7 +128,7 @@ class Layer:
 
 
 def before(layer, memory=None):
-    """Words to put before a command that sees the layer, if one is given, and affects nothing else."""
+    """Words to put before a command: it sees the layer, if given, and can kill no other process."""
     return [*(layer.words() if layer else []), *seal(), *limits(memory)]
 
 

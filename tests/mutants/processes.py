@@ -59,7 +59,8 @@ def wait(process, seconds):
 
 
 def limits(memory=None):
-    """Words to put before a command to limit the memory (bytes) of each of its processes."""
+    """Words to put before a command to lower its priority, to forbid core dumps, and to limit the
+    memory of each of its processes to `memory` bytes, if given."""
     words = ['nice', '-n', '2', 'prlimit', '--core=0']
     if memory is not None:
         words.append(f'--as={memory}')
@@ -78,7 +79,8 @@ def seal():
 
 
 def run(command, cwd, env=None, seconds=3600, before=()):
-    """Runs a command in its own process group, after the words `before`, or those of limits()."""
+    """Runs a command in its own process group. Puts the words `before`, or those of limits() if
+    `before` is empty, before the command."""
     if stopping.is_set():
         raise Stopped
     begin = time.monotonic()

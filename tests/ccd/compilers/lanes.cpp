@@ -16,7 +16,7 @@ template <int n>
 class Operations {
   using Real = Lanes<n>;
   using Numbers = std::array<double, n>;
-  /// The same truth value for each lane.
+  /// A truth value that all lanes share.
   struct Truths {
     bool same;
     bool operator[](std::size_t /*lane*/) const { return same; }
