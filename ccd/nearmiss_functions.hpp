@@ -28,19 +28,19 @@
 // Eigen is included before this header, or as a type T that T{x, y, z} makes from three numbers. It may
 // return `int` in place of `bool`.
 //
-// Pass a function f that is overloaded, has default arguments or is a member as NEARMISS_CALL(f), such as
-// NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() sets any field of nearmiss_subject.h, also to
-// another value than the table gives:
+// If a function f is overloaded, has default arguments or is a member, pass NEARMISS_CALL(f), such as
+// NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() sets any field of nearmiss_subject.h, even if the
+// table gives another value:
 //
 //   .set(&nearmiss_subject::time_sort, NEARMISS_NO_TIME).set(&nearmiss_contract::apart_at_start, 1)
 //
-// A detector may also have functions that return the distance of primitives with the vertices x0 x1 .. at
-// rest. squared(f) makes such a function from one that returns the squared distance:
+// A detector may also have functions that return the distance of primitives at rest. Such a function takes
+// the vertices x0 x1 .. at one time. If f returns the squared distance, squared(f) returns the distance:
 //
 //   NEARMISS_SUBJECT(detector("mine").edge_edge_distance(squared(NEARMISS_CALL(ipc::edge_edge_distance))))
 //
-// .edge_edge_step(f), and so on, add a filter of steps, double f(const Question&, double* y). f writes the
-// positions at the end of the safe step to y, and returns the clearance that it claims during this step
+// .edge_edge_step(f), and so on, add a filter of steps, double f(const Question&, double* y). f writes to y
+// the positions at the end of the safe step, and returns the clearance that it claims during this step
 // (nearmiss_subject.h).
 #pragma once
 
@@ -175,7 +175,7 @@ constexpr bool answers<std::void_t<std::invoke_result_t<const F&, Argument...>>,
     is_answer<std::invoke_result_t<const F&, Argument...>>;
 
 /// Asks a function of type F about queries of one kind, as its signature requires. `State` is the tuple of
-/// arguments before those of the signature: the options, or nothing.
+/// the arguments that precede those of the signature: the options, or nothing.
 template <class F, class State, int kind>
 class Asked {
   using Vertices = std::make_index_sequence<vertices_of(kind)>;
@@ -197,7 +197,7 @@ class Asked {
       std::declval<State>(), std::declval<First>(), std::declval<std::tuple<Argument...>>()))>::value;
 
   static constexpr bool is_question = takes<std::tuple<const Question&>>;
-  // A function that also takes a number in place of the reference double& toi has another signature.
+  // If the function also takes a number in place of the reference double& toi, it has another signature.
   static constexpr bool is_ipc =
       takes<Points, double&, double, double> && !takes<Points, double, double, double>;
   static constexpr bool is_displaced =
@@ -366,8 +366,8 @@ struct Detector {
     return changed;
   }
 
-  /// Lets the user set these options, KEY=NUMBER. Every function then gets their values in its first
-  /// argument, whose type is the struct that the options are members of.
+  /// Lets the user set these options, KEY=NUMBER. The first argument of every function is then a struct,
+  /// whose members have the values of the options.
   template <const auto& settings>
   auto options() const {
     using State = decltype(owner_of(settings.data()));
@@ -404,7 +404,7 @@ struct Detector {
         if (part.kind == kind) act(part);
     });
   }
-  /// The `Asked` for a function that decides queries.
+  /// The object that asks the part's function.
   template <int kind, class F>
   static Asked<F, Front, kind> asked(const Part<Role::decide, kind, F>& /*part*/) {
     return {};
@@ -432,7 +432,8 @@ const auto& described() {
   return std::get<i>(all);
 }
 
-/// Answers n queries of a kind with the detector's function for this kind, as decide() of nearmiss_subject.h.
+/// Implements decide() of nearmiss_subject.h: answers n queries of a kind with the detector's function for
+/// this kind.
 template <class Detector>
 void decide_each(const Detector& detector, void* state, int kind, std::size_t n, const double* x,
                  const double* h, int* answer, double* toi) {
@@ -470,7 +471,7 @@ double step_of(void* state, int kind, const double* x, double* y) {
   return clearance;
 }
 
-/// The nearmiss_subject of a detector, without pointers to functions.
+/// The nearmiss_subject of a detector, in which decide, distance and step are still null pointers.
 template <class Detector>
 nearmiss_subject described_by(const Detector& detector) {
   nearmiss_subject subject = detector.subject;
@@ -495,8 +496,8 @@ nearmiss_subject described_by(const Detector& detector) {
   return subject;
 }
 
-/// The nearmiss_subject of a detector without options. It only decides queries, and its state is a pointer to
-/// the detector.
+/// The nearmiss_subject of a detector without options. The subject only decides queries, and the state of its
+/// decide() is a pointer to the detector.
 template <class... Parts>
 nearmiss_subject described_by_itself(const Detector<NoOptions, Parts...>& detector) {
   using Its = Detector<NoOptions, Parts...>;

@@ -11,9 +11,10 @@
  * If the environment variable NEARMISS_RECORD is not set, a call costs about a nanosecond. If it is set, any
  * number of threads may record at once, and a forked child process records to the file of its parent. If
  * another process, or a shared object with a recorder of its own, already records to run.nmq, the name of the
- * new file contains the number of the process: run-4711.nmq. A finished recording in run.nmq is renamed to
- * run.nmq~. If the program crashes, only the records that were being written are lost. If the disk has no
- * room for the file, a line on stderr says so, and nothing is recorded. */
+ * new file contains the number of the process that writes it: run-4711.nmq. If run.nmq is a finished
+ * recording, it is first renamed to run.nmq~. If the program crashes, only the records that were being
+ * written are lost. If the disk has no room for the file, a line on stderr says so, and nothing is
+ * recorded. */
 #ifndef NEARMISS_RECORD_H
 #define NEARMISS_RECORD_H
 
@@ -83,7 +84,8 @@ typedef struct {
   uint64_t unused[3];
 } nearmiss_record_slot;
 
-/* The recorder that all source files of the program share, and all shared objects that can see the symbol. */
+/* The recorder. All source files of the program share it, and so do all shared objects that can see the
+ * symbol. */
 typedef struct {
   int state;  /* 0: not yet known; 1: off; 2: on; 3: a thread is opening the file */
   int opener; /* the process that opens the file, while `state` is 3 */

@@ -29,10 +29,10 @@ extern "C" {
 #define NEARMISS_NO_TIME 0
 #define NEARMISS_TIME_ESTIMATE 1
 #define NEARMISS_TIME_LOWER_BOUND 2 /* before this time, the distance exceeds h */
-/* A lower bound toi that also makes the step shortened to toi safe: the distance exceeds h while each vertex
- * moves straight from a, its position at t = 0, to a + toi (b - a), where b is its position at t = 1. Each
- * operation of this formula is rounded to double, or to float if `bits` is 24. The shortened step is judged
- * only if the exact answer is a collision. */
+/* A lower bound toi, which also promises that the step is safe if it is shortened to toi: the distance
+ * exceeds h while each vertex moves straight from a, its position at t = 0, to a + toi (b - a), where b is
+ * its position at t = 1. Each operation of this formula is rounded to double, or to float if `bits` is 24.
+ * The shortened step is judged only if the exact answer is a collision. */
 #define NEARMISS_TIME_FREE_STEP 3
 
 /* Layouts of the coordinates of n queries. */
@@ -95,8 +95,8 @@ typedef struct {
   void (*decide)(void* state, int kind, size_t n, const double* x, const double* h, int* answer, double* toi);
 
   /* The bound that the detector claims for a query, in the unit of the coordinates. If the detector reports
-   * the query falsely, the smallest distance in the step exceeds h by at most this bound. NULL if the
-   * detector claims no bound, or if the bound depends on h. */
+   * the query falsely, the smallest distance in the step exceeds h by at most this bound. The pointer is NULL
+   * if the detector claims no bound, or if the bound depends on h. */
   double (*distance_bound)(void* state, int kind, const double* x);
 
   /* New in version 3: */
@@ -117,8 +117,8 @@ typedef struct {
   double (*distance)(void* state, int kind, const double* x, double* weights);
 
   int step_kinds; /* sum of the kinds for which step() is called; 0 if step() is NULL */
-  /* Filters a step. x is one row, as for decide(). The function writes the positions to which the vertices
-   * may safely move, in place of those at t = 1, to `y`: 12 numbers, or 6 for two vertices, and 9 for a
+  /* Filters a step. x is one row, as for decide(). The function writes to `y` the positions to which the
+   * vertices may safely move, in place of those at t = 1: 12 numbers, or 6 for two vertices, and 9 for a
    * vertex and an edge. It returns a clearance, finite and at least 0. The detector claims that the distance
    * of the primitives is at least the clearance while the vertices move straight from their positions at
    * t = 0 to y. A clearance of 0 claims that the primitives do not touch. */

@@ -108,7 +108,7 @@ class Reader {
   bool is_packed_;
 };
 
-/// Query q of queries for which are_readable() is true.
+/// Query number q. The queries must be readable (are_readable()).
 inline Query query_at(const nearmiss_queries& queries, std::size_t q) {
   Query query{.kind = *kind_of_bit(queries.kind)};
   if (queries.type == NEARMISS_DOUBLE)

@@ -45,8 +45,8 @@ struct VertexAndEdge {
   std::uint8_t to;      ///< its other end
 };
 
-/// A kind's names, the vertices and edges of its primitives, and their pairs. No other place in the code
-/// lists them.
+/// A kind's names, its primitives with their edges, and the pairs of features (two vertices, or a vertex and
+/// an edge) of different primitives. No other place in the code lists them.
 struct Topology {
   std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
   std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
@@ -147,8 +147,8 @@ constexpr int vertices(Kind kind) { return split(kind) + static_cast<int>(topolo
 constexpr std::size_t coordinate_count(Kind kind) { return static_cast<std::size_t>(6 * vertices(kind)); }
 
 /// Whether the formulas for a vertex and a triangle apply, as they do for all kinds but two edges (see
-/// Query). A point of the triangle is x1 + α (x2 - x1) + β (x3 - x1) with α, β >= 0 and α + β <= 1. Points of
-/// two edges have a weight in [0, 1] each, α and β.
+/// Query). A point of the triangle is x1 + α (x2 - x1) + β (x3 - x1) with α, β >= 0 and α + β <= 1. For two
+/// edges, a point of the first edge has the weight α, and a point of the second the weight β, both in [0, 1].
 constexpr bool has_triangle(Kind kind) { return kind != Kind::edge_edge; }
 
 /// The number of a kind in the C interfaces, such as NEARMISS_VERTEX_TRIANGLE. Sums of such numbers are sets

@@ -39,9 +39,9 @@ struct Query {
   [[nodiscard]] Eigen::Map<const Vector3<double>> start(int vertex) const { return at(vertex); }
   /// A vertex at t = 1.
   [[nodiscard]] Eigen::Map<const Vector3<double>> end(int vertex) const { return at(4 + vertex); }
-  /// Moves a vertex at t = 0.
+  /// Sets the position of a vertex at t = 0.
   void set_start(int vertex, const Vector3<double>& p) { set(vertex, p); }
-  /// Moves a vertex at t = 1.
+  /// Sets the position of a vertex at t = 1.
   void set_end(int vertex, const Vector3<double>& p) { set(4 + vertex, p); }
 
   /// Whether kind, coordinates and separation are equal.
@@ -75,7 +75,7 @@ Query query_of(Kind kind, const Number* coordinates) {
   return query;
 }
 
-/// Copies coordinates from `x`, which is laid out as Query::x, without those of repeated vertices.
+/// Copies the coordinates in `x`, which is laid out as Query::x, except those of repeated vertices.
 inline void copy_coordinates(Kind kind, const double* x, double* to) {
   const std::size_t half = coordinate_count(kind) / 2;
   std::copy_n(x + 12, half, std::copy_n(x, half, to));

@@ -107,10 +107,11 @@ class Detector {
   /// The distance that the detector gives for the primitives at t = 0. The detector must give distances for
   /// this kind.
   [[nodiscard]] DistanceAnswer distance(Kind kind, const double* x) const;
-  /// The query's step as the detector filters it. The detector must filter steps for this kind.
+  /// The detector's answer when it filters the step of the query with the coordinates `x`. The detector must
+  /// filter steps for this kind.
   [[nodiscard]] StepAnswer step(Kind kind, const double* x) const;
-  /// The time that the last decide() took without copies to and from a device, in ns; 0 if the detector does
-  /// not give it.
+  /// The time that the last decide() took, in ns, not counting copies to and from a device; 0 if the detector
+  /// does not give this time.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const;
 
   /// A detector that answers every query with NEARMISS_NO_COLLISION and computes nothing.

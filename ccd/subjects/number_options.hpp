@@ -40,7 +40,8 @@ bool set_option(const std::array<Option<State>, n>& options, const std::string& 
   return false;
 }
 
-/// Sets the options in `text`, such as "tolerance=1e-6:iterations=1000". Returns "", or the first fault.
+/// Sets the options in `text`, such as "tolerance=1e-6:iterations=1000". Returns a description of the first
+/// fault, or "" if there is none.
 template <class State, std::size_t n>
 std::string set_options(const std::array<Option<State>, n>& options, const std::string& text, State& state) {
   std::array<bool, n> is_set{};

@@ -11,7 +11,8 @@
 
 namespace nearmiss {
 
-/// The number of queries decided before a batch is timed, to bring the subject's code back into the caches.
+/// The number of queries that a subject decides before its batch is timed, to bring its code back into the
+/// caches.
 inline constexpr std::size_t warm_up_queries = 8;
 
 /// Measures, by two clocks, the time since its construction. Reading the wall clock takes only about 20 ns,

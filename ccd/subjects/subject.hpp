@@ -104,7 +104,7 @@ struct StepAnswer {
 /// The time of a batch of answers, measured by a Stopwatch in the deciding thread or process. The time of an
 /// empty subject for the same queries is subtracted.
 struct BatchTime {
-  std::size_t queries = 0;  ///< the timed queries, without parts of the batch in which a process failed
+  std::size_t queries = 0;  ///< the timed queries; parts of the batch in which a process failed do not count
   std::uint64_t nanoseconds = 0;
   std::uint64_t kernel_nanoseconds =
       0;  ///< the time without copies to and from a device; 0 if the subject does not give it
@@ -200,16 +200,16 @@ class Subject {
   /// stack of the crash if it is known. "" if nothing is known.
   [[nodiscard]] virtual std::string fault_errors(const Verdict& /*verdict*/) const { return {}; }
 
-  /// How near the query is to the opposite answer: the least factor by which the accepting tolerances, as
-  /// lengths (D, √δ, √ψ, S, ∛μ), must be multiplied so that the subject reports the query. The factor is at
-  /// most 1 if the subject reports the query, and larger otherwise. It guides directed search. It is accurate
-  /// to a few bits, and NaN if the subject does not give it.
+  /// How near the query is to the opposite answer: the subject reports the query if D, √δ, √ψ, S and ∛μ, the
+  /// tolerances that decide whether it accepts a pair, are multiplied by at least this factor. The factor is
+  /// at most 1 if the subject reports the query, and larger otherwise. It guides directed search. It is
+  /// accurate to a few bits, and NaN if the subject does not give it.
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
  protected:
-  /// A subject that is called like this one, but computes nothing. Its run time is subtracted from that of
+  /// A subject that computes nothing. Its run time, the overhead of the calls, is subtracted from that of
   /// this subject.
   [[nodiscard]] virtual const Subject& empty() const;
 };
@@ -226,9 +226,9 @@ std::vector<SubjectInfo> subjects();
 inline constexpr std::string_view of_scene = "@scene";
 
 /// Makes a built-in subject from its name, or a Plugin from a name with a '/'. NAME may end in options,
-/// :KEY=NUMBER. NAME@B gives the subject the bound B; NAME and NAME@scene give it `given_bound`, also in the
-/// queries' unit of length. This bound replaces every pair's own bound B (§5 of the paper); subjects without
-/// B ignore it. Throws Error for an unknown name or option, or an unusable plug-in.
+/// :KEY=NUMBER. NAME@B gives the subject the bound B; NAME and NAME@scene give it `given_bound`. Both bounds
+/// are in the queries' unit of length. The given bound replaces every pair's own bound B (§5 of the paper);
+/// subjects without B ignore it. Throws Error for an unknown name or option, or an unusable plug-in.
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 
@@ -241,8 +241,8 @@ struct SplitName {
   std::optional<double> bound;
 };
 /// Splits the suffix "@B" or "@scene" off a name. "@B" gives the bound B. "@scene" gives `given_bound`, and
-/// so does a name without a suffix. The name of a plug-in has no suffix. Throws Error if B is a number that
-/// is not positive and finite.
+/// so does a name without a suffix. If there is no `given_bound`, "@scene" stays in the name. The name of a
+/// plug-in has no suffix. Throws Error if B is a number that is not positive and finite.
 SplitName split_bound(std::string_view name, std::optional<double> given_bound);
 
 /// Throws an Error that says that the subject `name` found a coordinate that is not finite.

@@ -16,9 +16,9 @@
 namespace nearmiss {
 
 /// The polygon of all differences x - y of a point x of the first primitive and a point y of the second. The
-/// distance of the primitives is the distance of the origin from this polygon. It is a triangle for vt, and a
-/// parallelogram for ee. For vv and ve, it is a triangle with corners that coincide (has_triangle). The
-/// corners are differences of vertices, and move linearly.
+/// distance of the primitives is the distance of the origin from this polygon. The polygon is a triangle for
+/// vt, and a parallelogram for ee. For vv and ve, it is a triangle with corners that coincide (has_triangle).
+/// The corners are differences of vertices, and move linearly.
 template <Kind kind, class T>
 struct DifferencePolygon {
   static constexpr std::size_t size = has_triangle(kind) ? 3 : 4;
@@ -112,12 +112,12 @@ template <Kind kind, class T, std::size_t size>
 /// at t = 1, has an error of u(|x| + |y| + |v|), and |v| <= 2X.) The computed direction n (`beyond_until`)
 /// has a length of at most 1 + 4u: it is a vector whose largest component is 1, divided by its length. The
 /// magnitudes of the components of n add up to at most √3. So a dot product of n and a vector has two errors:
-/// √3 times that of the vector's components and, from its own operations, 3u · √3 times the vector's largest
-/// component.
+/// √3 times the error of the vector's components and, from its own operations, 3u · √3 times the vector's
+/// largest component.
 /// - n·corner and n·v: √3 (8 + 3) uX and √3 (4 + 3 · 2) uX, together 37uX.
 /// - h: the corners are beyond h if n·corner > ‖n‖h. As h < n·corner <= √3 X, ‖n‖h is at most h + 7uX.
 /// - The step is a quotient whose numerator has two roundings. So its relative error is 3u. In the whole
-///   step, n·corner falls by at most √3 X, so in the fraction 3u of the step by at most 3u · √3 X <= 6uX.
+///   step, n·corner falls by at most √3 X; in the fraction 3u of it, by at most 3u · √3 X <= 6uX.
 /// - t + step has an error of u; in the time u, a corner moves by at most 2√3 uX <= 4uX.
 /// The sum is 54uX = 27εX, and 32 has room for terms of second order.
 inline constexpr int advance_error = 32;

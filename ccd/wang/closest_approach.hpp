@@ -76,8 +76,8 @@ struct Approach {
     return squared_edge_distance(a + t * va, e + t * ve);
   }
 
-  /// In ascending order: 0, 1, and all times in (0, 1) at which the distance of x0 from an end of the edge,
-  /// or from the edge's line, has an extremum.
+  /// 0, 1, and all times in (0, 1) at which the distance of x0 from an end of the edge, or from the edge's
+  /// line, has an extremum. The times are in ascending order.
   [[nodiscard]] std::vector<double> times() const {
     std::vector<double> found{0, 1};
     const auto add_nearest = [&](const Vector& x, const Vector& v) {

@@ -104,7 +104,8 @@ struct Nodes {
   }
 };
 
-// The time with |F| <= μ that represents the roots of F in interval i, if there is one.
+// The time with |F| <= μ that represents the roots of F in interval i; nothing if the interval has no such
+// time.
 template <class T>
 std::optional<T> root_in_interval(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T mu) {
   using std::abs;

@@ -1,5 +1,5 @@
-// Finds the factor for the tolerances at which the answer to a query changes: a measure of how near the query
-// is to the opposite answer.
+// Finds the factor by which the tolerances must be multiplied to change the answer to a query. The factor
+// measures how near the query is to the opposite answer.
 #pragma once
 
 #include "ccd/wang/elementary.hpp"

@@ -141,20 +141,21 @@ namespace detail {
 // W is the paper's 2 V_max for relative velocities (§4.1), and at most 2 max ‖v_i‖∞.
 //
 // Rounding errors: let E* and W* be the exact values, and B* = E* + W*. Only a pair that collides needs a
-// bound. In such a pair, every edge is within B* at t = 0 and at t = 1, and the vertex of VT is within B* of
-// all other vertices. For EE at t = 0, some end point of one edge is within B* of some end point of the other
-// edge, and both edges are within E*. So any two end points are within B* + 2E* <= 3B* of each other at
-// t = 0, and within 4B* at t = 1. The errors are at most
+// bound. Let the distance of two vertices be measured by the largest component of their difference. In a pair
+// that collides, no edge is longer than B* at t = 0 and at t = 1, and the vertex of VT is within the distance
+// B* of all other vertices. For EE at t = 0, some end point of one edge is within B* of some end point of the
+// other edge, and no edge is longer than E*. So any two end points are within B* + 2E* <= 3B* of each other
+// at t = 0, and within 4B* at t = 1. The errors are at most
 // - u(|start| + |end|) + u|v| <= 8uB* for a velocity,
 // - 17uB* for a sum of two velocities (v30 = v20 + v32),
-// - 34uB* + u for an extent, which is the difference of two such sums,
+// - 34uB* + uB* for an extent, which is the difference of two such sums,
 // - 4uB* for an edge (x32 = x31 - x21).
 // The sum E + W has a rounding error of uB*. Together these errors are at most 40uB* = 20 ε B* (17 ε B* is
 // proven). The factor 1 + 64 ε makes up for them and for the rounding of its own product: B >= B*(1 + 40ε).
 template <Kind kind, class T>
 void form_bound(Pair<kind, T>& pair) {
-  // Six components at once: those of an edge, then those of a velocity. p is not an edge, so 0 takes the
-  // place of its position.
+  // All six components of a vector at once: those of its position, then those of its velocity. The positions
+  // of q and r are edges; that of p is not, so 0 takes its place.
   using Six = Eigen::Array<T, 6, 1>;
   const Six& q = pair.q.xv;
   Six p;
@@ -229,7 +230,7 @@ Frame normalising_frame(const Query& query) {
 
 namespace detail {
 
-// The order of end points with the smallest ‖x20‖∞ at t = 0.
+// The order of end points for which ‖x20‖∞ at t = 0 is smallest.
 template <class T>
 VertexOrder closest_order(const Query& query, const Frame& frame) {
   VertexOrder best = given_order;
@@ -256,8 +257,8 @@ auto within_reach(const Pair<kind, T>& pair) {
   return max_component(pair.p.x()) <= pair.B;
 }
 
-/// Whether all vectors of the pair are within B, if need be after an exchange of end points of edges. B does
-/// not depend on the order of end points.
+/// If a vector of the pair is not within B, exchanges end points of edges as in closest_order(). Returns
+/// whether all vectors are then within B. B does not depend on the order of end points.
 template <Kind kind, class T>
 bool bring_within_reach(const Query& query, Pair<kind, T>& pair) {
   if (within_reach(pair)) return true;

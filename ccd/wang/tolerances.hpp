@@ -22,8 +22,8 @@ T fourth_root_of_epsilon() {
 }
 
 /// The tolerances of §4 for pairs with the bound B. VV and VE are the tests of Algorithms 1 and 2. According
-/// to the paper, its closed forms for the tolerances are failure-proof if μ >= 33492 B³ε. Its μ, 64 B³e³ with
-/// e = ε^¼, is large enough for double (64/2^39 > 33492/2^52) and not for float. According to
+/// to the paper, its closed forms for the tolerances are failure-proof if μ >= 33492 B³ε. The paper's μ, 64
+/// B³e³ with e = ε^¼, is large enough for double (64/2^39 > 33492/2^52) and not for float. According to
 /// constraints.hpp, the closed forms are failure-proof for every scalar of 13 bits or more.
 template <class T>
 struct Tolerances {

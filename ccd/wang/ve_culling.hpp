@@ -13,8 +13,8 @@
 
 namespace nearmiss {
 
-/// How VE culling chooses h, half the width of an interval around a computed root that must contain the exact
-/// root.
+/// How VE culling chooses h. If |F| is large enough at the times t - h and t + h, the exact root that the
+/// computed root t represents lies between these times (`excludes_collision`).
 enum class VeCulling : std::uint8_t {
   none,      ///< VE tests always run
   fixed,     ///< Tolerances::h: ε^½, as the paper proposes, or another value
@@ -34,8 +34,8 @@ enum class VeCulling : std::uint8_t {
 inline constexpr int evaluation_error = 865;
 
 /// The bound m in the proof of `solve_cubic`, in units of B³ε. If s and t are in one interval between two
-/// nodes, F with its computed coefficients stays between F(s) and F(t) from s to t, up to an error of m:
-/// 3 · 18, plus terms of second order, for ε <= 2^-10.
+/// nodes, F with its computed coefficients stays between F(s) and F(t) from s to t, up to an error of m. This
+/// error is 3 · 18, plus terms of second order, for ε <= 2^-10.
 inline constexpr int node_error = 60;
 
 /// The bound of the error of comparing a weight with N·N, in units of B⁴ε, by Theorem 4.1 (B_f and k as
@@ -50,10 +50,10 @@ inline constexpr int weight_error = 1160;
 /// The bound of the error of `weight_spread`, ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h, in units of B⁴ε, for h <= 1. Here
 /// ‖N‖₁ <= 6 B², ‖q‖₁ + ‖r‖₁ <= 6 B and W <= B. ‖N‖₁ has an error of 3 · 2 B² · 14 ε = 84 B²ε, which
 /// contributes 84 · 6 √3 <= 873. ‖q‖₁ + ‖r‖₁ has an error of 6 · 6 Bε, which contributes 36 · 6 √3 <= 375. W
-/// has an error of 35 εB (see form_bound), which contributes 35 · 36 √3 <= 2183. The product itself has about
-/// ten roundings, and t ± h has one; these contribute 11 · 36 √3 <= 686. The sum is 4117, plus terms of
-/// second order. For rounding to nearest, 1427 is proven, and 1914 for this error and that of the weight's
-/// comparison together.
+/// has an error of 35 εB (see form_bound, with ε in place of u), which contributes 35 · 36 √3 <= 2183. The
+/// product itself has about ten roundings, and t ± h has one; these contribute 11 · 36 √3 <= 686. The sum is
+/// 4117, plus terms of second order. For rounding to nearest, 1427 is proven, and 1914 for this error and
+/// that of the weight's comparison together.
 inline constexpr int spread_error = 4400;
 
 /// `weight_error` for a configuration in a wider scalar, whose operations have relative errors of at most 4
@@ -96,7 +96,8 @@ T weight_spread(const Configuration<kind, T, Wide>& configuration, T W, T h) {
   return static_cast<T>(Wide(norm_1(configuration.N))) * edges * T(1.7320508075688775) * W * h;
 }
 
-// Whether some weight is outside [0, N·N] by more than `spread` and the bounds of the rounding errors.
+// Whether some weight is outside [0, N·N] by more than the sum of `spread` and the bounds of the rounding
+// errors.
 template <Kind kind, class T, class Wide>
 auto outside(const Configuration<kind, T, Wide>& configuration, T spread, T eps, T B) {
   constexpr int error =
@@ -110,7 +111,8 @@ auto outside(const Configuration<kind, T, Wide>& configuration, T spread, T eps,
 
 }  // namespace detail
 
-/// Whether certainly no collision belongs to the computed root t. If so, this root needs no VE tests.
+/// Whether it is certain that no collision belongs to the computed root t. If so, this root needs no VE
+/// tests.
 ///
 /// Let t0 be a root of the exact F that t represents. Between t and t0, |F| is at most μ + E + m, since
 /// |F̂| <= μ at t (`solve_cubic`; E is `evaluation_error`, m is `node_error`). If |F̂| exceeds μ + 2E + m at

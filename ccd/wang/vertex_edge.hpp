@@ -101,7 +101,7 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 /// Proof, for operations with a relative error of at most ω. Let Q_k be the computed components of
 /// x_0i × x_ji without the replaced terms, each with the c' of `solve_quadratic` in place of c. Let G be the
 /// sum of all |Q_k| minus S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ + O(ω). Start at t_E, and go
-/// in a direction in which G does not rise, until it would rise. The kinks of -S‖x_ji‖∞ are concave, and G
+/// in a direction in which G does not rise, until G would rise. The kinks of -S‖x_ji‖∞ are concave, and G
 /// does not begin to rise at a concave kink. So this walk ends at a time t' of one of these kinds:
 /// - 0 or 1 (case 1).
 /// - A kink of some |Q_k|, which is a root of Q_k (case 4). The candidate for this root, or 1 if its computed

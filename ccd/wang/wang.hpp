@@ -104,14 +104,14 @@ T sum_of_squares(const Pair<kind, T>& pair) {
 //
 // Let s be the `sum_of_squares`, s_x its part from positions, and s_v its part from velocities. An edge is
 // the difference of at most two vectors, so E <= √2 √s_x (motion.hpp). The relative velocity of two vertices
-// is at most that of p + r - q, so W <= √3 √s_v. By the Cauchy-Schwarz inequality, E + W <= √(5 s). μ is
-// proportional to B³; let μ1 be the μ for B = 1. Then μ <= 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2), and a
-// clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding errors are too small to matter: all components are
-// within √s, and velocities have errors of 4ε √s. So the errors of F and of the clearance are together below
-// 1000 ε s^(3/2) in every rounding mode (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The
-// order of end points does not matter either, since it only changes the sign of F*. The code compares the
-// squares of both sides, to avoid a square root. If s is not in_range(), s³ might overflow or underflow, and
-// the answer is false.
+// is a sum or difference of at most three of those of p, q and r (p + r - q for two edges), so W <= √3 √s_v.
+// By the Cauchy-Schwarz inequality, E + W <= √(5 s). μ is proportional to B³; let μ1 be the μ for B = 1. Then
+// μ <= 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2), and a clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding
+// errors are too small to matter: all components are within √s, and velocities have errors of 4ε √s. So the
+// errors of F and of the clearance are together below 1000 ε s^(3/2) in every rounding mode (Theorem 4.1:
+// 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The order of end points does not matter either, since it
+// only changes the sign of F*. The code compares the squares of both sides, to avoid a square root. If s is
+// not in_range(), s³ might overflow or underflow, and the answer is false.
 template <Kind kind, class T, class Rule>
 auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& tolerances) {
   const T s = sum_of_squares(pair);

@@ -31,7 +31,8 @@ struct RoundingErrors {
   Number least_psi;  ///< the least ψ with which VE misses no time (Appendix C)
 };
 
-/// The bounds that the paper states (§4.2 to §4.5). The bounds of errors that the paper omits are 0.
+/// The bounds that the paper states (§4.2 to §4.5). An error for which the paper states no bound has the
+/// bound 0 here.
 template <class Number>
 RoundingErrors<Number> printed_errors(const Number& eps) {
   using std::sqrt;
@@ -83,11 +84,11 @@ inline constexpr std::size_t constraint_count = 18;
 /// bound.
 ///
 /// Why the constraints suffice, in short: if the area test passes, r bounds a distance at the computed root.
-/// Vertex-triangle: the distance of the vertex from the triangle's plane. Edge-edge: the distance between the
-/// lines of the two edges. If a collision fails a test, a vertex comes within R of an edge at some time,
-/// because something is small (two-event analysis, §3.3.1): the triangle (its inscribed circle) or the
-/// quadrilateral, an edge, a height, or a weight. VE reports this vertex, unless its length or weight test
-/// fails; then the vertex is within D of an end of the edge, and VV reports it.
+/// For vertex-triangle, this is the distance of the vertex from the triangle's plane; for edge-edge, the
+/// distance between the lines of the two edges. If a collision fails a test, a vertex comes within R of an
+/// edge at some time, because something is small (two-event analysis, §3.3.1): the triangle (its inscribed
+/// circle) or the quadrilateral, an edge, a height, or a weight. VE reports this vertex, unless its length or
+/// weight test fails; then the vertex is within D of an end of the edge, and VV reports it.
 ///
 /// The p of a pair that does not collide may be as large as 2B at t = 1. This at most doubles the errors of
 /// the weights, and with them the distance of a false positive from the line of an edge.

@@ -21,16 +21,18 @@ constexpr Number rounding_error(const Number& u, const Number& c, int k) {
 /// - Underflow: less than 1 u. For double, with B within 2^±100, B³ε >= 2^-352. Underflow in b² or 4ac is
 ///   below η = 2^-1074, and changes c' by η/4|a|. If |a| >= 2^-400, this is below 2^-670. Else, if
 ///   |b| >= 2^-400, η is below 2^-274 b². Else F' is constant to 2^-397, and the nodes do not matter. For
-///   float, with B within 2^±6, these powers are 2^-41, 2^-149, 2^-70, 2^-79, 2^-60, 2^-29 and 2^-57.
+///   float, with B within 2^±6, these powers are, in this order, 2^-41, 2^-149, 2^-70, 2^-79, 2^-60, 2^-29
+///   and 2^-57.
 ///
-/// `solve_cubic` has the proof to first order, tests/proofs/ that for all orders.
+/// The proof to first order is at `solve_cubic`, the proof for all orders in tests/proofs/.
 template <class Number>
 constexpr Number cubic_residual(const Number& u) {
   return u * 865 / (1 - u * 16);
 }
 
 /// The least ψ with which `vertex_edge` misses nothing, for B = 1, a given S, and operations with a relative
-/// error of at most u <= 2^-10. Positions may be up to 2, as in the tests of edges. The terms of ψ are:
+/// error of at most u <= 2^-10. Positions may be up to 2, as in the vertex-edge tests of two edges. The terms
+/// of ψ are:
 /// - 2Δ: 588 u + 8 S u + 12ρ. Each of the three components of x_0i × x_ji has an error of 98 u: a has the
 ///   bound 2 with k = 10; b has 6 with 9; c has 4 with 4 + 2, where 2 is from the c' of `solve_quadratic`.
 ///   The components of a and b that are replaced by 0 add 6ρ, and x_ji adds 4 S u.
@@ -40,7 +42,7 @@ constexpr Number cubic_residual(const Number& u) {
 /// - The computed F_0ij, with the bound 12 + S and k = 19: 228 u + 19 S u.
 /// - Underflow: less than 1 u, as above; a component of a is above ρ, or 0.
 ///
-/// `vertex_edge` has the proof to first order, tests/proofs/ that for all orders.
+/// The proof to first order is at `vertex_edge`, the proof for all orders in tests/proofs/.
 template <class Number>
 constexpr Number least_psi(const Number& u, const Number& S, const Number& rho) {
   return u * (S * 34 + 1031) / (1 - u * 16) + rho * 12;

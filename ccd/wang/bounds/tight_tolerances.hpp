@@ -68,10 +68,10 @@ struct EdgeTolerances {
   double psi, lambda2, D2;
 };
 
-// The smallest ψ and D² for a given S, with the λ² for which D² is smallest, for B = 1. D² has two lower
-// bounds ("VE: edge becomes short" and "VE: weight" in `constraints`). As λ² grows, the first one,
-// λ²/4 + (ψ/λ + S)², first falls and then rises, since its slope grows. The second one falls. So the larger
-// of the two first falls and then rises.
+// For B = 1 and a given S: the smallest ψ, the smallest D², and the λ² that gives this D². D² has two lower
+// bounds ("VE: edge becomes short" and "VE: weight" in `constraints`). As λ² grows, the first one, λ²/4 +
+// (ψ/λ + S)², first falls and then rises, since its slope grows. The second one falls. So the larger of the
+// two first falls and then rises.
 constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, double S, double margin) {
   const double psi = errors.least_psi * margin;
   const auto D2 = [&](double lambda2) {
@@ -89,8 +89,9 @@ constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, d
   return {psi, lambda2, D2(lambda2) * margin};
 }
 
-// The smallest g (see `solve_tight`) for which allows(g) is true: the constraint on the weight, 2 weight <= g
-// η(g) (τ(g) - error). The right side grows with g, so the constraint holds for all larger g.
+// The smallest g (see `solve_tight`) that satisfies the constraint on the weight. allows(g) is this
+// constraint: 2 weight <= g η(g) (τ(g) - error). The right side grows with g, so the constraint holds for all
+// larger g.
 template <class Allows>
 constexpr double least_size(const Allows& allows) {
   double none = 0;
@@ -115,8 +116,8 @@ constexpr double least_size(const Allows& allows) {
 /// the weight, g η (τ - error) >= 2 weight, holds. As g grows from g0, R² = g² + r(g)² first falls and then
 /// rises, and its minimum gives R. R gives S, and S gives the `edge_tolerances`, with ρ = ε.
 ///
-/// The operations that compute a tolerance have a relative error below 16 ε together. R, ψ, D² and μ are
-/// increased by 16 ε + 2^-30 times themselves.
+/// The operations that compute a tolerance have relative errors below 16 ε together. To make up for them, R,
+/// ψ, D² and μ are multiplied by 1 + 16 ε + 2^-30.
 constexpr ToleranceConstants solve_tight(int eps_exponent) {
   const double eps = detail::power_of_two(eps_exponent);
   const double e = detail::square_root(detail::square_root(eps));
@@ -154,7 +155,7 @@ constexpr ToleranceConstants solve_tight(int eps_exponent) {
 template <class T>
 inline constexpr ToleranceConstants tight_constants = solve_tight(epsilon_exponent<T>);
 
-/// The tolerances of the paper's closed forms in the same units, for ε = 2^eps_exponent.
+/// The tolerances of the paper's closed forms for B = 1 and ε = 2^eps_exponent.
 constexpr ToleranceConstants closed_forms(int eps_exponent) {
   const double e = detail::square_root(detail::square_root(detail::power_of_two(eps_exponent)));
   return {64 / e, 64, 4, 6, 18, 2080, 34 * 34 + 522, 725, 3};
