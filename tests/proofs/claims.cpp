@@ -40,7 +40,7 @@ std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, P
   const ProvenBounds bounds = prover.bounds(problem, {53, claim.underflow, claim.vectors_alone});
   const double best = std::ldexp(bounds.error, 52);
   if (!(best <= claim.proven)) fault(fmt::format("Gappa proves only {} with underflow", best));
-  if (!(claim.proven <= 1.05 * best)) fault(fmt::format("Gappa proves {}, far below {}", best, claim.proven));
+  if (!(claim.proven <= 1.1 * best)) fault(fmt::format("Gappa proves {}, far below {}", best, claim.proven));
   // If a script left out a part of its formula, Gappa could prove a bound below an error that was seen.
   if (!(witness.error <= best)) fault(fmt::format("{} is seen, but Gappa proves {}", witness.error, best));
   if (!(bounds.largest_result <= largest_allowed)) fault("Gappa does not prove that results are finite");

@@ -69,7 +69,8 @@ TEST(ProofsClaims, FailWhereTheyAreWrong) {
   EXPECT_THAT(faults_with([](CcdClaim& claim) { claim.proven = 4.001; }),
               ElementsAre("VV: v.v: Gappa does not prove 4.001 with 11 bits"));
   EXPECT_EQ(faults_with([](CcdClaim& claim) { claim.proven = 3.99; }).size(), std::size(precisions) + 1);
-  EXPECT_THAT(faults_with([](CcdClaim& claim) { claim.proven *= 2; }), ElementsAre(HasSubstr("far below 8.04")));
+  EXPECT_THAT(faults_with([](CcdClaim& claim) { claim.proven *= 2; }),
+              ElementsAre(HasSubstr("far below 8.04")));
   EXPECT_THAT(faults_with([](CcdClaim& claim) { claim.proven = 3; }),
               Contains(HasSubstr("is seen, 3 proven")));
   EXPECT_THAT(faults_with([&](CcdClaim& claim) {  // one more rounding
