@@ -159,7 +159,7 @@ void Record::begin() {
   store_.emplace(options_.db, info_, shard_);
 }
 
-/// Loads the run in the store as the beginning of this run. Throws Error if the store has another run, and
+/// Loads the run that the store holds, so that this run continues it. Throws Error if the store has another run, and
 /// Stopped if the user ends the command.
 void Record::go_on() {
   Campaign before;

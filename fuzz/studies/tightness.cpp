@@ -79,8 +79,8 @@ Gauge tests_gauge(const Tests& tests, bool among, const Stop& stop) {
           std::move(search), read};
 }
 
-/// Whether only queries with four vertices use this tolerance or group of tests, because Algorithms 1 and 2
-/// do not use it.
+/// Whether only queries with four vertices use this tolerance or group of tests. Algorithms 1 and 2, which
+/// decide the other queries, do not use it then.
 bool needs_four_vertices(std::string_view name) {
   constexpr std::array<std::string_view, 4> all{"eta", "mu", "tau", "proximity"};
   return std::ranges::find(all, name) != all.end();

@@ -323,7 +323,7 @@ class DistanceSearch {
     const bool needs_precision = step * std::abs(a.moment.rate) < rough * differences_.total_reach();
     SampledTime next = needs_precision ? look_precisely(t) : look_between(a, t, b);
     if (!is_resolved(next)) {
-      // The distance is certainly below `low_` a little later, unless it hardly changes.
+      // Shortly after this time, the distance is certainly below `low_`, unless it is almost constant there.
       const Real later = next.t + Real(2 * resolution * low_ / std::abs(next.moment.rate));
       if (!(later < b.t)) return false;
       next = look_precisely(later);

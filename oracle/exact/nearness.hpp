@@ -27,7 +27,7 @@ struct FeatureNearness {
   [[nodiscard]] bool holds_at(Root& t) const {
     return t.sign_of(excess) <= 0 && is_inside_at(t) && is_extended_at(t);
   }
-  /// Whether the statement holds with a distance of less than b.
+  /// As holds_at(), but for a distance of less than b, where holds_at() allows a distance of b.
   [[nodiscard]] bool holds_strictly_at(Root& t) const {
     return t.sign_of(excess) < 0 && is_inside_at(t) && is_extended_at(t);
   }

@@ -23,9 +23,9 @@
 // certainly changes its sign.
 //
 // Rounding errors are in units of U, the relative error of one operation (`roundoff`); (1 + U)^k - 1 is at
-// most 1.01 k U. A vector v comes with V, the largest magnitudes of its computed components, and e_v, bounds
-// of the errors of these components. tests/proofs/ derives each constant below again from this code, proves
-// with Gappa that it suffices, and shows how near an error can come to its bound.
+// most 1.01 k U. For each computed component of a vector v, V bounds its magnitude, and e_v its error. The
+// comments below give the reason for each constant. tests/proofs/ derives the constants a second time from
+// this code, proves with Gappa that they suffice, and shows how near an error can come to its bound.
 //
 // - A product x y of two components changes by at most X e_y + Y e_x + e_x e_y because of the errors of its
 //   factors.

@@ -49,8 +49,8 @@ class Told {
   void end_night(const NightReport& night) {
     for (const auto& [subject, of_night] : night.subjects) {
       night_before_[subject].clear();
-      // After a clean night, a failure is news again, even if the subject's code seems to be the same:
-      // nearmiss does not know the code of a program (`pipe:`).
+      // After a clean night, a failure is news again, even if the subject's code seems unchanged. The code of
+      // a program (`pipe:`) may have changed, since nearmiss does not know it.
       if (of_night.clean)
         std::erase_if(told_, [&, name = subject](const Topic& each) {
           const auto& [of, what, topic] = each;

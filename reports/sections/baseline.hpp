@@ -159,8 +159,9 @@ struct ComparedTimes {
 /// A busy machine makes everything slower. Therefore each family is compared with the subject's other
 /// families: the ratio of its time to its earlier time is divided by the median of this ratio over the
 /// subject's families. A subject as a whole is compared with the other subjects: its median ratio is divided
-/// by the machine's ratio, which is the median of 1 and the median ratios of all subjects. If a subject has
-/// only a few families, the ratio of each of its families is divided by the machine's ratio instead.
+/// by the machine's ratio. The machine's ratio is the median of a list that has the median ratio of each
+/// subject, and the number 1. If a subject has only a few families, the ratio of each of its families is
+/// divided by the machine's ratio instead.
 ///
 /// Welch's test compares the remaining change with its spread. The variance of the change's logarithm has two
 /// parts. One part follows from the spread among batches. The other part is estimated from the spread among
@@ -168,8 +169,8 @@ struct ComparedTimes {
 /// and for the families of a subject that has only a few. If there are several earlier campaigns, the
 /// variance is at least the variance between these campaigns.
 ///
-/// @param risk the probability of calling some time changed although none has changed; each comparison has an
-/// equal part of this risk (Bonferroni)
+/// @param risk the probability that at least one time is reported as changed if none has changed; each
+/// comparison has an equal part of this risk (Bonferroni)
 ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
 
 /// A fact that differs between the runs of the baseline and of the campaign. `before` has all values of the

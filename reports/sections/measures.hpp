@@ -44,7 +44,7 @@ using MeasureKeys = std::vector<std::string_view>;
 /// The headings of a table on the terminal: the given cells, then the measures.
 std::vector<std::string> headings(std::vector<std::string> cells, const MeasureKeys& measures);
 
-/// A row under these headings: the given cells, then the measures of a sum.
+/// A row under these headings: the given cells, then the measures of the counters in `sum`.
 std::vector<std::string> row_of(std::vector<std::string> cells, const MeasureKeys& measures,
                                 const CountsSum& sum);
 

@@ -100,8 +100,8 @@ struct LadderPlace {
   std::string algorithm;  ///< the subject's name without the scalar: "wang-eps:h=0.001@0.5"
   std::string scalar;
   int epsilon_exponent = 0;
-  /// The bound by which the distances of false positives are divided, in units of B, the size of a query's
-  /// pair; nothing if the bound is not known.
+  /// The bound by which the distances of false positives are divided. Its unit is B, the size of a query's
+  /// pair. Nothing if the bound is not known.
   std::optional<double> unit;
 };
 

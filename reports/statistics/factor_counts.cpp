@@ -159,9 +159,9 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
   return longest;
 }
 
-/// Whether chance may explain that none of the `collisions` at a run of values is missed. `outside` has the
-/// values on one side of the run, nearest first. Tries several rates of misses: that of the nearest value,
-/// that of the nearest two values together, and so on. False if the nearest value has no misses.
+/// Whether it may be chance that a subject misses none of the `collisions` at some consecutive values.
+/// `outside` has the values on one side of these, nearest first. Tries several rates of misses: that of the
+/// nearest value, that of the nearest two values together, and so on. False if the nearest value has no misses.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
   if (outside.empty() || !outside.front().misses) return false;

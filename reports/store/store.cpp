@@ -184,7 +184,7 @@ bool is_damage(const std::exception& error) {
   return reason != nullptr && reason->getErrorCode() == SQLITE_CORRUPT;
 }
 
-/// The name of the log beside a store if this log makes SQLite fail: a killed process left it, and SQLite
+/// The name of the log beside a store, if SQLite fails because a killed process left this log, and SQLite
 /// cannot write in the folder. "" for any other error.
 std::string locked_log(const fs::path& file, const std::exception& error) {
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);

@@ -1,5 +1,5 @@
-"""A copy of the tree, without a mutant, and its build. The copy has its own C++ files and headers; all
-other files are links. A mutant is in a layer over the copy and the build, so it changes neither of them,
+"""A copy of the tree that has no mutant, and the build of this copy. The copy has its own C++ files and
+headers; all other files are links. A mutant is in a layer over the copy and the build, so it changes neither of them,
 several mutants can be built at a time, and nothing is compiled again when a mutant is taken back."""
 
 import os
