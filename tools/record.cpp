@@ -159,8 +159,8 @@ void Record::begin() {
   store_.emplace(options_.db, info_, shard_);
 }
 
-/// Loads the run that the store holds, so that this run continues it. Throws Error if the store has another run, and
-/// Stopped if the user ends the command.
+/// Loads the run that the store holds, so that this run continues it. Throws Error if the store has another
+/// run, and Stopped if the user ends the command.
 void Record::go_on() {
   Campaign before;
   store_.emplace(options_.db, &before, [] { Stop(interrupted()).check(); });

@@ -161,7 +161,8 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
 
 /// Whether it may be chance that a subject misses none of the `collisions` at some consecutive values.
 /// `outside` has the values on one side of these, nearest first. Tries several rates of misses: that of the
-/// nearest value, that of the nearest two values together, and so on. False if the nearest value has no misses.
+/// nearest value, that of the nearest two values together, and so on. False if the nearest value has no
+/// misses.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
   if (outside.empty() || !outside.front().misses) return false;

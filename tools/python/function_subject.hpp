@@ -16,7 +16,8 @@ namespace nearmiss::python {
 /// A subject that calls function(kind, x, separation) for queries of one kind. x has the shape (n, 2, v, 3),
 /// where v is the kind's number of vertices, and separation has the shape (n,). The function returns n bools
 /// and, if the subject gives times, n times; src/nearmiss/_trials.py checks the answers. If the
-/// function throws an exception, the subject throws it, too. The caller must not hold Python's global interpreter lock.
+/// function throws an exception, the subject throws it, too. The caller must not hold Python's global
+/// interpreter lock.
 class FunctionSubject final : public DescribedSubject {
  public:
   FunctionSubject(DetectorInfo info, pybind11::function function)
