@@ -19,13 +19,13 @@
 //   Answer f(const Question&)                          everything else      none              no
 //
 // The compiler does not notice if a function takes its vertices in another order, such as the triangle first,
-// or if its numbers mean something else than in the table. Call such a function from one that takes a
+// or if its numbers mean something else than in the table. Call such a function from a function that takes a
 // Question (fuzz/subjects/peers/ has examples). If the functions of a detector give times of different sorts,
 // the detector claims the weakest sort.
 //
 // A function with the signature of Codim-IPC gets eta = 0.1, toi = 1 and rounded displacements; the
 // separation is its thickness h. A function may take a vertex as a const double*, as a vector of Eigen if
-// Eigen is included before this header, or as a type T that T{x, y, z} makes from three numbers. It may
+// Eigen is included before this header, or as a type T for which T{x, y, z} takes three numbers. It may
 // return `int` in place of `bool`.
 //
 // If a function f is overloaded, has default arguments or is a member, pass NEARMISS_CALL(f), such as
@@ -39,9 +39,9 @@
 //
 //   NEARMISS_SUBJECT(detector("mine").edge_edge_distance(squared(NEARMISS_CALL(ipc::edge_edge_distance))))
 //
-// .edge_edge_step(f), and so on, add a filter of steps, double f(const Question&, double* y). f writes to y
-// the positions at the end of the safe step, and returns the clearance that it claims during this step
-// (nearmiss_subject.h).
+// .edge_edge_step(f) and the like add a filter of steps, a function double f(const Question&, double* y).
+// It writes to y the positions at the end of the safe step, and returns the clearance that it claims
+// during this step (nearmiss_subject.h).
 #pragma once
 
 #include <algorithm>
@@ -86,7 +86,7 @@ constexpr bool is_eigen =
     false;
 #endif
 
-/// A vertex that converts to any type in which a function may take a vertex.
+/// A vertex. It converts to every type that a function may use for a vertex.
 class Point {
  public:
   explicit Point(const double* x) : x_(x) {}
@@ -175,7 +175,7 @@ constexpr bool answers<std::void_t<std::invoke_result_t<const F&, Argument...>>,
     is_answer<std::invoke_result_t<const F&, Argument...>>;
 
 /// Asks a function of type F about queries of one kind, as its signature requires. `State` is the tuple of
-/// the arguments that precede those of the signature: the options, or nothing.
+/// the arguments before those that the table above lists: the options, or nothing.
 template <class F, class State, int kind>
 class Asked {
   using Vertices = std::make_index_sequence<vertices_of(kind)>;
@@ -191,7 +191,8 @@ class Asked {
 
   using Points = decltype(points(std::declval<Question>(), Vertices()));
   using Indexed = decltype(indexed(std::declval<Question>(), Vertices()));
-  /// Whether the function takes the state, then the tuple First of vertices, then these arguments.
+  /// Whether the function takes the state, then the vertices in the tuple First, then arguments of the types
+  /// `Argument`.
   template <class First, class... Argument>
   static constexpr bool takes = Takes<decltype(std::tuple_cat(
       std::declval<State>(), std::declval<First>(), std::declval<std::tuple<Argument...>>()))>::value;
@@ -366,8 +367,8 @@ struct Detector {
     return changed;
   }
 
-  /// Lets the user set these options, KEY=NUMBER. The first argument of every function is then a struct,
-  /// whose members have the values of the options.
+  /// Lets the user set the options that `settings` lists, by KEY=NUMBER. Every function then gets, as its
+  /// first argument, a struct whose members have the values of the options.
   template <const auto& settings>
   auto options() const {
     using State = decltype(owner_of(settings.data()));
@@ -396,7 +397,7 @@ struct Detector {
   void for_each_part(const Act& act) const {
     std::apply([&](const auto&... part) { (act(part), ...); }, parts);
   }
-  /// Calls act(part) for each function that has this role for this kind.
+  /// Calls act(part) for each function that has the role `role` and the kind `kind`.
   template <Role role, class Act>
   void for_parts_of(int kind, const Act& act) const {
     for_each_part([&](const auto& part) {
@@ -404,7 +405,7 @@ struct Detector {
         if (part.kind == kind) act(part);
     });
   }
-  /// The object that asks the part's function.
+  /// The Asked object, whose ask() calls the part's function.
   template <int kind, class F>
   static Asked<F, Front, kind> asked(const Part<Role::decide, kind, F>& /*part*/) {
     return {};
@@ -475,7 +476,7 @@ double step_of(void* state, int kind, const double* x, double* y) {
 template <class Detector>
 nearmiss_subject described_by(const Detector& detector) {
   nearmiss_subject subject = detector.subject;
-  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // sort: the weakest of all functions
+  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the weakest sort of times
   detector.for_each_part([&](const auto& part) {
     constexpr Role role = std::decay_t<decltype(part)>::role;
     if constexpr (role == Role::decide) {

@@ -51,9 +51,9 @@
 #define NEARMISS_UNKNOWN 2 /* cannot tell */
 #endif
 
-/* A flag that keeps a record longer: such records have a part of the file to themselves. Set it for queries
- * that matter, such as slow ones, those with a time of impact of 0, and those of a step that ends in an
- * intersection. */
+/* A flag that keeps a record longer: records with this flag have a part of the file to themselves. Set it for
+ * queries that matter, such as slow ones, those with a time of impact of 0, and those of a step that ends in
+ * an intersection. */
 #define NEARMISS_KEEP 1
 
 /* Values in the header of a recording. */

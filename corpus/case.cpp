@@ -49,7 +49,7 @@ Line split_line(std::string_view text) {
 
 std::string to_text(const Case& each) {
   std::string text;
-  std::istringstream why(each.why.empty() ? "" : each.why + '\n');  // the '\n' keeps an empty last line
+  std::istringstream why(each.why.empty() ? "" : each.why + '\n');  // else getline drops an empty last line
   for (std::string line; std::getline(why, line);) text += fmt::format("# {}\n", printable(line));
   text += fmt::format("kind {}\n", short_name(each.query.kind));
   if (each.truth) text += fmt::format("truth {}\n", *each.truth ? 1 : 0);

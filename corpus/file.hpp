@@ -21,8 +21,8 @@ class PartFile {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Asks the system to write the file's content to disk, and to drop it from memory. Otherwise, removing a
-  /// file of gigabytes takes seconds.
+  /// Asks the system to write the file's content to disk, and to drop it from memory. Without this call,
+  /// removing a file of gigabytes takes seconds.
   void write_out() const;
 
   /// Renames the file to `place`. Throws Error if that fails.

@@ -9,7 +9,8 @@
 
 namespace nearmiss {
 
-/// The longest line that is read, in bytes. A line of a device or a sparse file may never end.
+/// The largest length of a line, in bytes. LineReader refuses longer lines, because a line of a device or a
+/// sparse file may never end.
 inline constexpr std::size_t most_line_bytes = 1 << 20;
 
 /// Goes through the lines of a stream, which must outlive this object.

@@ -62,7 +62,7 @@ Number parse(std::string_view text, std::string_view where, std::string_view exp
   return negative ? -value : value;
 }
 
-/// The number of digits of a number in scientific notation, without trailing zeros.
+/// The number of digits of a number in scientific notation; trailing zeros do not count.
 std::size_t significant_digits(std::string_view scientific) {
   const std::string_view significand = scientific.substr(0, scientific.find('e'));
   const std::string_view kept = significand.substr(0, significand.find_last_not_of(".0") + 1);
@@ -70,9 +70,9 @@ std::size_t significant_digits(std::string_view scientific) {
       std::count_if(kept.begin(), kept.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// Whether the shortest decimal that is read as this value equals it exactly, so that reading does not round.
-/// No other decimal with as many digits as the shortest decimal is nearer to the value. So the shortest
-/// decimal is exact if the exact decimal of the value has the same number of digits.
+/// Takes the shortest decimal that rounds to this value, and returns whether it equals the value exactly.
+/// Among all decimals with the same number of digits, this decimal is the nearest to the value. So it is
+/// exact if the exact decimal of the value has that number of digits.
 bool has_exact_decimal(double value) {
   constexpr int most_digits = 767;  // the largest number of digits of a double
   std::array<char, most_digits + 10> text;

@@ -51,9 +51,9 @@ std::string to_exact(double value);
 /// 18 for ve, 12 for vv); a separation other than 0 follows. parse_line() reads the query back exactly.
 std::string to_line(const Query& query);
 
-/// The numbers of to_line() in decimals, for people. Two blanks separate points, and three separate t = 0
-/// from t = 1. parse_line() reads the query back exactly. If a decimal is not exactly its number, a second
-/// line is to_line(query).
+/// A query in a form for people: the numbers of to_line() in decimals. Two blanks separate points, and three
+/// separate t = 0 from t = 1. parse_line() reads the query back exactly. If a decimal does not equal its
+/// number exactly, to_line(query) follows as a second line.
 std::string to_readable(const Query& query);
 
 /// Parses a query: coordinate_count(kind) coordinates, and perhaps a separation. Throws an Error that starts

@@ -21,8 +21,8 @@ using CaseSink = std::function<void(Case&&)>;
 ///    (edge-edge or vertex-face), or the end of the file's name (ee or vf), determines the kind. The column
 ///    of truths may be missing. Then FOLDER/../mma_bool/NAME_mma_bool.json may have the truths of
 ///    FOLDER/NAME.csv, in an array of true and false, as in CCD-Query-IO;
-///  - *.nmq: a recording (recording.hpp), whose queries end at their tmax. If `path` is a recording, and not
-///    a folder, it may have any name;
+///  - *.nmq: a recording (recording.hpp); the step of each query ends at the tmax of its record. If `path` is
+///    a recording, and not a folder, it may have any name;
 ///  - *.vt, *.ee, *.vv, *.ve: one query a line (parse_line); '#' starts a comment.
 /// A byte order mark at the beginning of a file is skipped. Other files in a folder are ignored. Throws Error
 /// with file and line, also for a file that is empty, unreadable or of another format, for a recording

@@ -20,18 +20,18 @@ struct Recorded {
   bool is_float;  ///< whether the program computes in float
   bool is_kept;   ///< NEARMISS_KEEP
 
-  /// The recorded query with the time `tmax` as the end of its step. The positions at tmax are computed in
-  /// double.
+  /// The recorded query, with its step shortened so that it ends at the time `tmax`. The positions at tmax
+  /// are computed in double.
   [[nodiscard]] Query asked() const;
 };
 
 /// How many records of a file cannot be used, and why.
 struct UnusedRecords {
-  std::uint64_t unfinished = 0;   ///< were being written when the program or the file ended
-  std::uint64_t not_queries = 0;  ///< have a kind, coordinates, a separation or a tmax that no query can have
+  std::uint64_t unfinished = 0;   ///< records that were being written when the program or the file ended
+  std::uint64_t not_queries = 0;  ///< records whose kind, numbers or tmax no query can have
 };
 
-/// Whether a stream begins as a recording does. Then moves the stream back to its beginning.
+/// Returns whether a stream begins as a recording does. In either case, moves the stream to its beginning.
 bool begins_as_recording(std::istream& in);
 
 /// Passes the usable records of a file to `sink`, in the order of the calls. Throws Error if the file is no

@@ -12,7 +12,7 @@
 
 namespace nearmiss {
 
-/// Reads the *.csv format of read_cases. `path` determines the kind, and errors name `path`.
+/// Reads the *.csv format of read_cases. `path` determines the kind of the queries, and errors name `path`.
 void read_sample_csv(std::istream& in, const std::filesystem::path& path, const CaseSink& sink);
 
 /// The name of a folder, and the end of a file's name. Either of the two determines the kind of the queries
@@ -23,7 +23,7 @@ struct SampleNames {
 /// The names for a kind; nothing for a kind that the format does not have.
 std::optional<SampleNames> sample_names(Kind kind);
 
-/// The file with the truths for a file `csv` that has no column for them.
+/// The file that has the truths of the queries in `csv` if `csv` has no column for truths.
 std::filesystem::path sample_truths(const std::filesystem::path& csv);
 
 /// The eight lines of a query. The query must ask for contact, and be of a kind that the format has. The

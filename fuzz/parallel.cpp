@@ -19,9 +19,9 @@ namespace nearmiss {
 namespace {
 
 /// Starts threads until there are `jobs` threads, including the calling thread, or until the system has none
-/// left. Ends these threads and returns their number. If the system had no thread left, returns half of that
-/// number: other processes may start threads before the caller does, and the system counts a thread for a
-/// while after its end.
+/// left. Then ends these threads. Returns their number, or half of it if the system had no thread left. The
+/// other half is a reserve, because other processes may start threads before the caller does, and because the
+/// system counts a thread for a while after its end.
 int try_threads(int jobs) {
   std::latch all_tried(1);
   std::vector<std::thread> threads;
@@ -108,7 +108,7 @@ void in_parallel(int jobs, std::size_t count, const std::function<void(std::size
 void detail::in_order(int jobs, const std::function<Untyped()>& next, const std::function<void(void*)>& work,
                       const std::function<void(void*)>& take) {
   constexpr std::size_t on_their_way =
-      16;  // for each thread, so that one slow item does not hold up the others
+      16;  // items for each thread, so that one slow item does not hold up the others
   FirstFailure failure;
   const auto make = [&](tbb::flow_control& control) {
     Untyped item;

@@ -133,7 +133,7 @@ bool EarliestTime::makes_late(double time) {
 Enclosure EarliestTime::enclosure(double width) {
   const PlainArithmetic guard;
   if (rough_.is_known_to(width)) return rough_.time;
-  const bool is_unique = width == 0;  // then the exact time gives the same enclosure
+  const bool is_unique = width == 0;  // then narrow() and exact() give the same enclosure
   if (!(is_unique && exact_) && narrow().is_known_to(width)) return narrow().time;
   return enclose(exact().time, width);
 }

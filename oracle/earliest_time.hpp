@@ -17,7 +17,7 @@ struct FirstApproach;
 
 /// Results of a decision from which the search for the earliest time can start.
 struct KnownTimes {
-  std::optional<KnownApproach> approach;  ///< for h > 0: what certified bounds show
+  std::optional<KnownApproach> approach;  ///< for h > 0: what certified bounds show about t*
   std::shared_ptr<const exact::FirstApproach>
       exactly;  ///< the first approach, if exact arithmetic found it; for h = 0, the first contact
 };

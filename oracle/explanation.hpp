@@ -22,7 +22,7 @@ struct Explanation {
   /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if they always are,
   /// and nothing for kinds with fewer than four vertices.
   std::optional<int> roots;
-  Contact contact{};         ///< the first contact, or the first approach to the separation
+  Contact contact{};         ///< when the primitives first touch, or first come within the separation
   bool is_approach = false;  ///< whether the query has a separation
   /// Whether there is a contact although the number of roots that root parity counts is even.
   bool unseen_by_parity = false;

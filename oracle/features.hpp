@@ -44,8 +44,8 @@ struct ApproachFeatures {
 
   ContactFeatures::Time time{};
   Closest closest{};
-  /// Whether the distance does not fall below h at once after the first approach: it stays at h, or grows
-  /// again.
+  /// Whether the distance, once it has reached h for the first time, stays at h or grows again, instead of
+  /// falling below h at once.
   bool touches = false;
 
   bool operator==(const ApproachFeatures&) const = default;

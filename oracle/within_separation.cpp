@@ -32,7 +32,7 @@ class ApproachSearch {
   /// Narrows the enclosure `known.time`. If `known.comes` is true, the distance is below the separation at
   /// the end of the new enclosure.
   [[nodiscard]] FirstTime narrow(const FirstTime& known, double width) const {
-    constexpr double least_quick_width = 0x1p-40;  // double does not give narrower enclosures
+    constexpr double least_quick_width = 0x1p-40;  // QuickSearch does not give narrower enclosures
     if (known.comes && width >= least_quick_width) {
       const FirstTime quick = QuickSearch(differences_, low_, required_).narrow(known, width);
       if (quick.time.hi - quick.time.lo <= width) return quick;

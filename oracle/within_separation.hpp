@@ -7,7 +7,7 @@
 
 namespace nearmiss {
 
-/// What certified bounds show about a query with a separation h > 0.
+/// Facts about a query with a separation h > 0 that certified bounds prove.
 struct KnownApproach {
   /// `boxes`, `planes` and `apart`: the distance is always above h. `within`: it falls below h. `undecided`:
   /// neither is known.

@@ -106,7 +106,7 @@ std::string line(const Fields& fields, std::string Field::*part) {
   return fmt::format("{}\n", fmt::join(parts, ","));
 }
 
-/// The text of a file with these rows. The headings come from `any`, which may be any row, because `rows` may
+/// The text of a CSV file with `rows`. The headings come from `any`, an example of a row, because `rows` may
 /// be empty.
 std::string as_csv(const Fields& any, const std::vector<Fields>& rows) {
   std::string text = line(any, &Field::heading);

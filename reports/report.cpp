@@ -140,9 +140,9 @@ void replace_report(const fs::path& folder, const ReportPaths& own,
     put_in_place(part, folder, own, files);
   } catch (const std::exception& error) {
     std::error_code ignored;
-    if (!is_written) {  // after all files are written, the next replacement needs `part`
+    if (!is_written) {  // if all files were written, own_files() will need report.json in `part`
       fs::remove_all(part, ignored);
-      fs::remove(folder, ignored);  // fails unless it is empty
+      fs::remove(folder, ignored);  // fails unless the folder is empty
     }
     throw Error(fmt::format("{}: the report cannot be written: {}", folder.string(), error.what()));
   }

@@ -71,8 +71,8 @@ void write_report(const Campaign& campaign, const ReportContext& context,
 /// Paths of files in a report's folder, such as "cases/a.case".
 using ReportPaths = std::set<std::string>;
 
-/// The files of the report with this report.json: those with fixed names, and the cases that report.json
-/// names.
+/// The paths of all files of the report that has `report` as its report.json: the files with fixed names, and
+/// the cases that report.json names.
 ReportPaths files_of(const nlohmann::ordered_json& report);
 
 /// The files in a folder that belong to an earlier report, complete or interrupted. The set is empty if the

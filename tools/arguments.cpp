@@ -139,7 +139,7 @@ void QueryInput::read(const std::function<void(const Query&)>& sink) const {
   const Kind of = parse_kind(kind, "--kind");
   const auto each = [&](const Case& read) { sink(separation.apply(read.query)); };
   if (file == "-") {
-    std::ios::sync_with_stdio(false);  // synchronized, a read error would look like the end of input
+    std::ios::sync_with_stdio(false);  // otherwise, a read error would look like the end of input
     return read_query_lines(std::cin, of, "stdin", each);
   }
   std::ifstream in(file);

@@ -19,7 +19,7 @@
 
 namespace nearmiss::tools {
 
-/// The largest value of an option that is a number of queries.
+/// The largest number of queries that an option takes.
 inline constexpr std::uint64_t most_queries = std::uint64_t{1} << 62;
 
 /// Adds an option whose value is a whole number from `least` to `most`. --help shows the present content of
@@ -73,7 +73,7 @@ std::vector<std::string> short_names_of_kinds();
 /// Throws Error if the subject does not decide queries of this kind.
 void expect_kind(const Subject& subject, Kind kind);
 
-/// Throws Error if there is no kind among these for which the subject takes separations.
+/// Throws Error if the subject takes separations for none of these kinds.
 void expect_separation(const Subject& subject, std::span<const Kind> of = kinds_of_meshes);
 /// Throws Error if no subject decides any of these kinds. Also throws Error if a subject decides some of
 /// these kinds, but takes separations for none of them.
@@ -120,7 +120,7 @@ std::vector<Family> find_families(const std::vector<std::string>& names, std::sp
 
 /// Makes a sweep of each family NAME: families NAME@VALUE for `steps` values of NAME's parameter. "all"
 /// stands for the families in `all` that have a parameter, and "vertices" for the families of vv and ve
-/// queries that have a parameter. Throws Error if a family that is named otherwise has no parameter.
+/// queries that have a parameter. Throws Error for the name of a family without a parameter.
 std::vector<Family> find_sweeps(const std::vector<std::string>& names, int steps,
                                 std::span<const Family> known, std::span<const Family> all);
 

@@ -79,10 +79,10 @@ nlohmann::ordered_json to_json(const BenchRun& run) {
 /// with less than 95 % confidence.
 constexpr std::size_t fewest_pairs = 6;
 
-/// By which factor the time in one row of the table of times changes from one series of runs to another.
+/// The factor by which the time in one row of the table of times changes between two series of runs.
 struct Change {
-  double ratio;   ///< the median, over all pairs of runs, of the time after divided by the time before
-  double lo, hi;  ///< the ends of a confidence interval of this median, of at least 95 %
+  double ratio;   ///< the median, over all pairs of runs, of (time after) / (time before)
+  double lo, hi;  ///< the ends of an interval that contains the true median with at least 95 % confidence
   /// "faster" or "slower" if the confidence interval does not contain 1, otherwise "within noise".
   [[nodiscard]] std::string_view verdict() const {
     return hi < 1 ? "faster" : lo > 1 ? "slower" : "within noise";
@@ -159,7 +159,7 @@ void append_to_history(const std::filesystem::path& file, const BenchRun& run) {
   std::string text;
   if (std::filesystem::exists(file)) {
     text = read_whole_file(file);
-    runs_of(text, file);  // throws if the file has other content
+    runs_of(text, file);  // throws Error if the file is no history
     if (!text.empty() && text.back() != '\n') text += '\n';
   }
   replace_file(file, text + json_text(to_json(run)) + '\n');

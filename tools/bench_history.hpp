@@ -14,8 +14,8 @@
 
 namespace nearmiss::tools {
 
-/// The median of those numbers that are not NaN: if their count is even, the larger of the two in the middle;
-/// if there are none, NaN.
+/// The median of the numbers, without those that are NaN. For an even count, returns the larger of the two
+/// middle numbers; without numbers, returns NaN.
 inline double median(std::vector<double> numbers) {
   std::erase_if(numbers, [](double number) { return std::isnan(number); });
   if (numbers.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -48,9 +48,9 @@ std::vector<BenchRun> read_history(const std::filesystem::path& file);
 void append_to_history(const std::filesystem::path& file, const BenchRun& run);
 
 /// A table that shows for each row how its time differs between two series of runs, before and after a change
-/// of the code. For each i, compares run i in `before` with run i in `after`, which should have followed each
-/// other directly: compares the medians of the row's times over all passes of the run. Throws Error if the
-/// series have different lengths or fewer than six runs, or if the runs used different processors.
+/// of the code. Compares run i in `before` with run i in `after`, for each i; these two runs should have
+/// followed each other directly. A row's time in a run is the median over all passes of the run. Throws Error
+/// if the series have different lengths or fewer than six runs, or if the runs used different processors.
 std::string comparison_table(const std::vector<BenchRun>& before, const std::vector<BenchRun>& after);
 
 }  // namespace nearmiss::tools

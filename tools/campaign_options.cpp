@@ -78,8 +78,8 @@ std::vector<Kind> chosen_kinds(const CampaignOptions& options, const Subjects& s
   return chosen;
 }
 
-/// The family, restricted to the kinds `asked`. If the family has none of these kinds, throws Error if the
-/// user has given --kind, and otherwise returns the whole family.
+/// The family, restricted to the kinds `asked`. If the family has none of these kinds, returns the whole
+/// family or, if the user has given --kind, throws Error.
 Family with_kinds(const CampaignOptions& options, const Family& family, std::span<const Kind> asked) {
   if (const auto chosen = of_kinds(family, asked)) return *chosen;
   if (!options.kinds.empty()) expect_kind(family, asked.front(), "--kind");
@@ -128,8 +128,8 @@ std::vector<Family> chosen_families(const CampaignOptions& options, const Subjec
     if (!separation.empty() && !family.has_separation) family = with_separation(family, separation);
     if (!options.separation.is_given()) family = as_asked(family);
     family = with_kinds(options, family, asked);
-    // If the family has separations, a subject that takes none is an error only if the user names families or
-    // gives --separation. Otherwise, the subject is not asked.
+    // A family with separations does not ask subjects that take none. Such a subject is an error only if the
+    // user names families or gives --separation.
     if (family.has_separation && (are_named || options.separation.is_given()))
       expect_separations(subjects, kinds_asked(family));
   }

@@ -71,8 +71,8 @@ class SimpleToml {
     return std::move(text_);
   }
 
-  /// For the name of each option that the file sets: the number of the line that sets it. Includes names that
-  /// no option has.
+  /// Maps the name of each option that the file sets to the number of the line that sets it. Includes names
+  /// that no option has.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 
  private:

@@ -17,8 +17,8 @@ class ConfigurationFile final : public CLI::ConfigTOML {
   /// Reads the options. The message of an Error begins with "--config:LINE: ".
   [[nodiscard]] std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
 
-  /// For the name of each option that the last file sets: the number of the line that sets it. Includes names
-  /// that no option has.
+  /// Maps the name of each option that the last file sets to the number of the line that sets it. Includes
+  /// names that no option has.
   [[nodiscard]] const std::map<std::string, long>& lines() const { return lines_; }
 
  private:

@@ -112,7 +112,7 @@ void expect_options(const CLI::App& app, int argc, char** argv) {
 /// A message of the command line's parser, with long words cut short. Only words that the user typed are
 /// long.
 std::string with_short_words(std::string_view text) {
-  constexpr std::size_t most = 200;  // the parser's own longest word, a list of choices, is shorter
+  constexpr std::size_t most = 200;  // no word that comes from the parser itself is so long
   std::string result;
   while (!text.empty()) {
     const std::size_t length = std::min(text.find(' '), text.size());
@@ -140,8 +140,8 @@ void expect_values(int argc, char** argv) {
   }
 }
 
-/// Chooses the vector instructions that compute as many doubles at once as the environment variable
-/// NEARMISS_LANES says. `variable` is the value of NEARMISS_LANES, or null.
+/// Chooses the vector instructions by the number of doubles that they compute at once. `variable` is this
+/// number, the value of the environment variable NEARMISS_LANES; if it is null or empty, does nothing.
 void choose_lanes(const char* variable) {
   if (variable == nullptr || *variable == '\0') return;
   try {
@@ -214,7 +214,7 @@ void refuse_configuration(const CLI::App& app, const nearmiss::tools::Configurat
     } catch (const nearmiss::Error& error) {
       throw nearmiss::Error(place + error.what());
     }
-    static const std::regex choice(R"(: (.*) not in \{(.*)\}$)");  // in the words of CLI11
+    static const std::regex choice(R"(: (.*) not in \{(.*)\}$)");  // a message of CLI11
     if (is_about(message, option))
       throw nearmiss::Error(place + std::regex_replace(message, choice, ": found '$1', expected one of $2"));
   }

@@ -17,7 +17,7 @@ struct OneCase {
   std::string options;  ///< options that `nearmiss shrink` needs besides --subject, each after a blank
 };
 
-/// At most twelve lines of at most 100 columns, or more if a name is long. They say how each subject answers
+/// At most twelve lines, of at most 100 columns unless a name is long. They say how each subject answers
 /// (subjects that fail come first), what is true, what the query is, what the first subject that fails wrote
 /// to standard error, and which commands simplify the query and make a test of it.
 std::string describe(const OneCase& one, const Campaign& campaign, const Subjects& subjects,

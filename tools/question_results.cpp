@@ -71,8 +71,8 @@ std::string table(const Steps& results) {
          "part of the motion before contact\n";
 }
 
-/// A line for each property of the queries, such as an angle, if a subject is right in one range of the
-/// property and fails elsewhere. `unsafe` is the word for a failure.
+/// Lines about subjects that are right in one range of a property of the queries, such as an angle, and fail
+/// elsewhere. Each line is about one subject, kind and property. `unsafe` is the word for a failure.
 std::string ranges(const FactorTable& factors, const char* unsafe) {
   std::string lines;
   for (const RightRange& each : right_ranges(factors))

@@ -10,8 +10,8 @@
 
 namespace nearmiss::tools {
 
-/// A table with a row for each subject and kind, the sizes and angles at which each subject is right, and
-/// the findings.
+/// A table with a row for each subject and kind; lines about subjects that are right in one range of a
+/// property of the queries, such as an angle, and fail elsewhere; and the simplest findings.
 std::string text_of(const QuestionResults<DistanceQuestion>& results);
 std::string text_of(const QuestionResults<StepQuestion>& results);
 

@@ -33,7 +33,7 @@ namespace {
 
 constexpr std::size_t printed_if_verbose = 10;  // findings
 constexpr auto save_interval = std::chrono::milliseconds(500);
-constexpr auto when_locked = std::chrono::seconds(5);           // longer, because each attempt to save waits
+constexpr auto when_locked = std::chrono::seconds(5);           // long, because each attempt to save waits
 constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // long, because a save writes all findings
 
 std::string cpu_model() {
@@ -55,7 +55,7 @@ void print(std::FILE* text, const Finding& finding, std::uint64_t seen) {
   for (const std::string& line : stderr_lines(finding, most_lines)) fmt::print(text, "    {}\n", line);
 }
 
-/// Prints the first query that each version breaks.
+/// Prints one query for each version that breaks queries: the first query that the version breaks.
 void print_broken(std::FILE* text, const std::vector<Finding>& findings, const Statistics& statistics) {
   std::set<std::string> printed;
   for (const Finding& each : findings) {

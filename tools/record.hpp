@@ -39,9 +39,9 @@ RunInfo run_info(const std::string& command);
 /// The facts on which a run's times depend: the compiler, its flags and the processor.
 RunInfo environment();
 
-/// At most `most` lines of what a finding's subject wrote to standard error, such as "stderr: no licence":
-/// the last lines that are not blank, and the first two calls of the subject's stack that are not in the C
-/// library. A line is cut to at most 96 bytes.
+/// Lines that a finding's subject wrote to standard error, such as "stderr: no licence"; at most `most`
+/// lines. They are the last lines that are not blank, and the first two calls of the subject's stack that are
+/// not in the C library. A line is cut to at most 96 bytes.
 std::vector<std::string> stderr_lines(const Finding& finding, std::size_t most);
 
 /// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.
@@ -63,8 +63,8 @@ class Record {
   [[nodiscard]] const Shard& shard() const { return shard_; }
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// Adds a result. If the result has the shrunk form of an earlier finding, it replaces this finding. Saves
-  /// at intervals.
+  /// Adds a result. If the result has the shrunk form of an earlier finding, this form replaces the finding.
+  /// Saves at intervals.
   void add(TrialResult&& result);
   /// Saves a picture, if there is a store. If another process has locked the store, waits up to half a
   /// minute.
@@ -99,7 +99,7 @@ class Record {
   bool saved_ = false;    // whether anything was ever saved
   bool unsaved_ = false;  // something was added since the last save
   Statistics statistics_;
-  std::set<CountsKey> set_aside_;  // counters of subjects that were announced as too slow
+  std::set<CountsKey> set_aside_;  // keys of counters of subjects that were announced as too slow
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;
   bool unsaved_shrunk_ = false;  // a finding was shrunk since it was saved

@@ -17,7 +17,7 @@ using RunTimes = std::vector<double>;
 /// The measurements of one subject on one input. Each list has one entry for each run.
 struct Measured {
   RunTimes times;
-  RunTimes kernels;     ///< `times` without copies to a device; NaN if the subject does not give them
+  RunTimes kernels;     ///< times without the copies to a device; NaN if the subject does not give this time
   RunTimes throughput;  ///< queries per second of wall-clock time; NaN for a subject without its own process
   std::optional<Counts> judged = {};  ///< the judged answers of the last run; only answered queries count
 };
@@ -25,8 +25,8 @@ struct Measured {
 bool any_separation(const std::vector<Query>& queries);
 
 /// Times the subjects by turns in every run, so that noise of the machine affects all subjects alike. If
-/// `judges` is true, judges the answers of the last run. Adds to `answered` each subject's numbers of queries
-/// and faults and, of the judged answers, the numbers of collisions and misses.
+/// `judges` is true, judges the answers of the last run. Adds each subject's numbers of queries and faults to
+/// `answered`; if answers are judged, also adds the numbers of collisions and misses.
 std::vector<Measured> time_all(const Subjects& subjects, const std::vector<Query>& queries, int runs,
                                bool judges, const Stop& stop, Statistics& answered);
 

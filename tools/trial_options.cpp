@@ -74,7 +74,7 @@ Subjects TrialOptions::keep_contracts(Subjects made) const {
 
 namespace {
 
-/// The name of the fact that says which built-in subject a renamed subject is.
+/// The key of the fact (RunInfo) that says which built-in subject the user has renamed to `subject`.
 std::string subject_fact(const std::string& subject) { return std::string(about_subject) + subject; }
 
 std::string plugin_fact(const std::string& subject) { return std::string(about_plugin) + subject; }
@@ -136,7 +136,7 @@ std::string absolute_path(const std::string& path) {
 }
 
 /// The command of a program in a form that works in any current folder. This form begins with a cd, unless
-/// each word of the command is an absolute path or, for the first word, a name that the shell looks up in
+/// each word of the command is an absolute path. The first word may also be a name that the shell looks up in
 /// $PATH.
 std::string absolute_command(const std::string& command) {
   const std::vector<std::string> words = shell_words(command);

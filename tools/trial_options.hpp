@@ -29,12 +29,12 @@ struct TrialOptions {
   /// Makes the subjects, wrapped so that each is asked only queries that its contract allows
   /// (contracted.hpp). Throws Error for an unknown name.
   Subjects make_subjects(const Stop& stop, std::optional<double> given_bound = std::nullopt) const;
-  /// Wraps subjects as make_subjects does, and gives them distinct names (tell_apart). `made` are the
-  /// subjects without their wrappers.
+  /// Wraps the subjects `made` as make_subjects does, and gives them distinct names (tell_apart).
   Subjects keep_contracts(Subjects made) const;
 
   /// The facts on which a run's results depend, including the digest and the version of each plug-in. `what`
-  /// is the subcommand with its own arguments. The fact `again` is the command that repeats the run.
+  /// is the subcommand with its input, such as "replay FILE". The fact with the key `again` is the command
+  /// that repeats the run.
   [[nodiscard]] RunInfo run_info(const std::string& what, const Subjects& made) const;
 };
 
@@ -42,7 +42,8 @@ struct TrialOptions {
 /// that repeats the run.
 void note_option(RunInfo& info, const std::string& fact, const std::string& option, const std::string& value);
 
-/// The line of progress of a command that has asked all queries, and has `left` findings still to shrink.
+/// The line that shows the progress of a command when it has asked all queries, and has `left` findings still
+/// to shrink.
 std::string shrinking_line(std::size_t left);
 
 /// The path of each plug-in on this machine, and its build id.

@@ -1,4 +1,4 @@
-// Makes Query values of queries that are in the caller's memory (queries.h), some hundreds at a time.
+// Reads queries from the caller's memory (queries.h), some hundreds at a time.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ inline bool is_answerable(const Query& query) {
   return query.separation >= 0 && query.separation < HUGE_VAL && is_finite(query);
 }
 
-/// Whether the coordinates of a query at t = 0, and those at t = 1, have the type T and are contiguous.
+/// Whether each query's coordinates at t = 0 are contiguous, and so are those at t = 1. T must be their type.
 template <class T>
 bool has_packed_points(const nearmiss_queries& queries) {
   return queries.coordinate_stride == sizeof(T) && queries.vertex_stride == 3 * sizeof(T) &&
@@ -122,8 +122,8 @@ inline Query query_at(const nearmiss_queries& queries, std::size_t q) {
 inline constexpr std::size_t block_size = 256;
 
 /// Divides `count` queries into blocks of at most `most`, and calls visit(block_of(first, size), first) for
-/// each block, where `first` is the index of its first query. Returns the last status of `visit` that is not
-/// NEARMISS_OK, or NEARMISS_OK if there is none.
+/// each block. `first` is the index of the block's first query, and `size` the number of its queries. Returns
+/// the last status of `visit` that is not NEARMISS_OK, or NEARMISS_OK if there is none.
 template <class BlockOf, class Visit>
 int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, const Visit& visit) {
   int status = NEARMISS_OK;
@@ -137,7 +137,7 @@ int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, cons
 /// Copies the queries into blocks, and calls visit(block, first) for each. Coordinates have the type T.
 template <class T, class Visit>
 int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
-  constexpr std::size_t most = 128;  // these fit into the L1 cache
+  constexpr std::size_t most = 128;  // so many queries fit into the L1 cache
   union Block {                      // a union, so that only the queries in use are initialised
     Block() {}
     Query queries[most];

@@ -54,8 +54,8 @@ struct Topology {
   Primitive second;                   ///< the primitive with the vertices x[split .. vertices)
   std::span<const VertexPair> edges;  ///< the edges of both primitives
   std::span<const VertexPair> gaps;   ///< each vertex of the first primitive with each of the second
-  /// Each vertex with each edge of the other primitive; the vertices of the first primitive come first. Two
-  /// vertices count as a vertex x0 and an edge x1x2 of length 0.
+  /// Each vertex with each edge of the other primitive; the vertices of the first primitive come first. The
+  /// kind vv counts as a vertex x0 and an edge x1x2 of length 0.
   std::span<const VertexAndEdge> vertices_and_edges;
   std::span<const VertexAndEdge> first_to_second;  ///< those with a vertex of the first primitive
   std::span<const VertexAndEdge> second_to_first;  ///< those with a vertex of the second primitive

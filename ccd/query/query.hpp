@@ -25,9 +25,10 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 /// coordinates x(0) and x(1). The question is whether the distance of the primitives is at most the
 /// separation h at some t in [0, 1]. Primitives that touch have the distance 0, so h = 0 asks for contact.
 ///
-/// A query with fewer than four vertices repeats the last one up to x3 (repeat_vertices). So every kind but
-/// two edges can be treated as a vertex and a triangle, which may be only an edge or a point. The unit of
-/// length is arbitrary. Coordinates are finite; the functions that read queries refuse infinities and NaN.
+/// A query with fewer than four vertices repeats its last vertex up to x3 (repeat_vertices). So queries of
+/// every kind but two edges can be treated as a vertex and a triangle; the triangle may be only an edge or a
+/// point. The unit of length is arbitrary. Coordinates are finite; the functions that read queries refuse
+/// infinities and NaN.
 struct Query {
   Kind kind{};  ///< the kind of the pair
   /// The coordinates x, y, z of x0, x1, x2 and x3 at t = 0, then those at t = 1.
@@ -75,7 +76,7 @@ Query query_of(Kind kind, const Number* coordinates) {
   return query;
 }
 
-/// Copies the coordinates in `x`, which is laid out as Query::x, except those of repeated vertices.
+/// Copies coordinates from `x` to `to`, but not those of repeated vertices. `x` is laid out as Query::x.
 inline void copy_coordinates(Kind kind, const double* x, double* to) {
   const std::size_t half = coordinate_count(kind) / 2;
   std::copy_n(x + 12, half, std::copy_n(x, half, to));

@@ -1,4 +1,4 @@
-// The number types of the templates: a scalar, or several scalars side by side.
+// The types of numbers with which templates compute: a scalar, or several scalars side by side (Lanes).
 #pragma once
 
 #include <type_traits>

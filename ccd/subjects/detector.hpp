@@ -39,7 +39,7 @@ inline constexpr std::size_t largest_batch = 10'000'000;  ///< in queries
 /// How a nearmiss_subject contradicts nearmiss_subject.h; "" if it does not.
 std::string fault_of(const nearmiss_subject& subject);
 /// Throws an Error that begins with `where` if a detector contradicts nearmiss_subject.h, was compiled with
-/// an unknown version of it, or has one of `other_names`.
+/// an unknown version of this header, or has a name in `other_names`.
 void expect_usable(const std::string& where, const nearmiss_subject& subject,
                    const std::vector<std::string>& other_names = {});
 /// Says why the name of a detector is not allowed; "" if it is allowed.

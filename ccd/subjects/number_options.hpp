@@ -18,8 +18,8 @@ struct Option {
   double least, most;  ///< the range of allowed values
 };
 
-/// Sets the option in `text`, KEY=VALUE, and marks it in `is_set`. Returns false if no option has this key,
-/// if the option is already marked, or if the value is not allowed.
+/// Sets one option. `text` is KEY=VALUE, and `is_set` marks the options that have been set. Returns false if
+/// no option has this key, if the option was already set, or if the value is not allowed.
 template <class State, std::size_t n>
 bool set_option(const std::array<Option<State>, n>& options, const std::string& text, State& state,
                 std::array<bool, n>& is_set) {

@@ -13,7 +13,7 @@
 
 namespace nearmiss {
 
-/// The prefix of the name of a subject that is a separate program: "pipe:COMMAND".
+/// The prefix in the name of a subject that is a separate program: "pipe:COMMAND".
 inline constexpr std::string_view program_prefix = "pipe:";
 
 inline bool is_program(std::string_view name) { return name.starts_with(program_prefix); }

@@ -11,13 +11,13 @@
 
 namespace nearmiss {
 
-/// The number of queries that a subject decides before its batch is timed, to bring its code back into the
-/// caches.
+/// The number of queries that a subject decides before the timing of its batch begins. They bring the
+/// subject's code back into the caches.
 inline constexpr std::size_t warm_up_queries = 8;
 
 /// Measures, by two clocks, the time since its construction. Reading the wall clock takes only about 20 ns,
-/// but this clock also counts the time in which another process has the processor. The CPU time is only that
-/// of this thread, or of all threads of this process, but is known less precisely. So the result is the
+/// but this clock also counts the time in which another process has the processor. The CPU clock counts only
+/// the time of this thread, or of all threads of this process, but is less precise. So the result is the
 /// shorter of the two times. If the work itself waited for a device or a thread, the result is the time by
 /// the wall clock.
 class Stopwatch {
@@ -41,9 +41,9 @@ class Stopwatch {
     long waits;         ///< the number of voluntary context switches
   };
 
-  /// For a process, the CPU time is from getrusage(): CLOCK_PROCESS_CPUTIME_ID only advances with the
+  /// For a process, getrusage() gives the CPU time. CLOCK_PROCESS_CPUTIME_ID would advance only with the
   /// kernel's ticks while the process has a limit or a timer of CPU time, which a plug-in or `ulimit -t` may
-  /// set. For a thread, getrusage() only advances with ticks, so a clock gives the CPU time.
+  /// set. For a thread, getrusage() advances only with ticks, so CLOCK_THREAD_CPUTIME_ID gives the CPU time.
   [[nodiscard]] Usage usage() const {
     rusage usage{};
     getrusage(is_of_thread_ ? RUSAGE_THREAD : RUSAGE_SELF, &usage);

@@ -23,7 +23,7 @@ enum class TimeSort : std::uint8_t {
   none,         ///< nothing
   estimate,     ///< the time is near t*
   lower_bound,  ///< the time is not after t*
-  free_step,    ///< a lower bound; also, the step to the rounded positions at the time is free of collisions
+  free_step,    ///< a lower bound; also, the step to the rounded positions at this time has no collision
 };
 
 /// The names of the sorts of times in reports.
@@ -84,7 +84,7 @@ struct DistanceAnswer {
 /// A subject's answer when it is asked to filter a step.
 struct StepAnswer {
   std::array<double, 12> y{};  ///< the positions to which the vertices may move; x, y, z of each
-  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< the distance that it claims to keep
+  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< the distance kept, as the subject claims
   Fault fault = Fault::none;                                    ///< if not `none`, there is no answer
   std::int32_t fault_code = 0;                                  ///< as in Verdict
 
@@ -133,8 +133,8 @@ class Subject {
   /// As decide(), and returns how long the decisions took.
   virtual BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const;
 
-  /// The time for each query on its own, in ns: the shortest of three tries, or nothing if the subject does
-  /// not answer.
+  /// Writes the time for each query on its own, in ns: the shortest of three tries, or nothing if the subject
+  /// does not answer.
   virtual void time_each(std::span<const Query> queries,
                          std::span<std::optional<std::uint64_t>> nanoseconds) const;
 
@@ -196,14 +196,14 @@ class Subject {
   /// not be loaded; "" for any other verdict.
   [[nodiscard]] virtual std::string fault_text(const Verdict& /*verdict*/) const { return {}; }
 
-  /// The last lines that a process wrote to standard error before it ended with the verdict's fault, and the
-  /// stack of the crash if it is known. "" if nothing is known.
+  /// The last lines that the subject's process wrote to standard error before it ended with the verdict's
+  /// fault, and the stack of the crash if it is known. "" if nothing is known.
   [[nodiscard]] virtual std::string fault_errors(const Verdict& /*verdict*/) const { return {}; }
 
-  /// How near the query is to the opposite answer: the subject reports the query if D, √δ, √ψ, S and ∛μ, the
-  /// tolerances that decide whether it accepts a pair, are multiplied by at least this factor. The factor is
-  /// at most 1 if the subject reports the query, and larger otherwise. It guides directed search. It is
-  /// accurate to a few bits, and NaN if the subject does not give it.
+  /// The smallest factor with which the subject would report the query if D, √δ, √ψ, S and ∛μ, the tolerances
+  /// that decide whether it accepts a pair, were multiplied by this factor. The factor is at most 1 if the
+  /// subject reports the query as it is. It shows directed search how near the query is to the opposite
+  /// answer. It is accurate to a few bits, and NaN if the subject does not give it.
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }

@@ -119,7 +119,7 @@ template <Kind kind, class T, std::size_t size>
 /// - The step is a quotient whose numerator has two roundings. So its relative error is 3u. In the whole
 ///   step, n·corner falls by at most √3 X; in the fraction 3u of it, by at most 3u · √3 X <= 6uX.
 /// - t + step has an error of u; in the time u, a corner moves by at most 2√3 uX <= 4uX.
-/// The sum is 54uX = 27εX, and 32 has room for terms of second order.
+/// These errors add up to 54uX = 27εX, and 32 has room for terms of second order.
 inline constexpr int advance_error = 32;
 
 /// `advance` reports a collision if the computed distance is at most h + `advance_reach` εX. Its steps only
@@ -137,7 +137,7 @@ inline constexpr int advance_reach = 128;
 /// the sum is 165εX.
 inline constexpr int advance_bound = 192;
 
-/// The largest number of steps. Primitives that slide past each other at a tiny distance could take any
+/// The largest number of steps. Primitives that slide past each other at a tiny distance could need any
 /// number of steps.
 inline constexpr int advance_iterations = 1000;
 
@@ -161,8 +161,8 @@ bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   return (lowest > distance).any() || (highest < -distance).any();
 }
 
-// The end, at most t + 2, of an interval that begins at t and in which all corners stay beyond `distance`
-// along a direction. The end is t if some corner is not beyond `distance` at t.
+// The time until which all corners stay beyond `distance` along a direction: at most t + 2; t if some corner
+// is not beyond `distance` at t.
 template <Kind kind, class T, class Corners>
 [[gnu::always_inline]] inline T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t,
                                              T t, const Vector3<T>& direction, T distance) {

@@ -153,10 +153,10 @@ T clearance(const Cubic<T>& F) {
 /// (1) If s and t are in the same interval between two nodes, F stays between F(s) and F(t) at all times
 ///     between s and t, up to an error of m. The inner nodes are the critical points of F + (c' - c) t, with
 ///     |c' - c| <= 3ω |c|, each up to a factor 1 + θ (`solve_quadratic`). This function is monotone between
-///     its exact critical points. It changes by O(ω²) between such a point, where the slope is 0, and the
-///     node. So m is 54 ω + O(ω²). If there are no inner nodes because the computed Bernstein coefficients of
-///     F' have the same sign, the last coefficient has an error of at most 72 ω. Then the slope of F has the
-///     wrong sign by at most 72 ω t², and m is 24 ω.
+///     its exact critical points. It changes by O(ω²) between an exact critical point, where its slope is 0,
+///     and the node near this point. So m is 54 ω + O(ω²). If there are no inner nodes because the computed
+///     Bernstein coefficients of F' have the same sign, the last coefficient has an error of at most 72 ω.
+///     Then the slope of F has the wrong sign by at most 72 ω t², and m is 24 ω.
 /// (2) If |F̂| > μ at two neighbouring nodes, with the same sign, then |F| > μ - h - m between them. A root t0
 ///     of F* has |F| <= e, so no root of F* is between these nodes. `clearance` has an error of at most
 ///     114 ω, so F* has no root if `clearance` exceeds μ.

@@ -72,7 +72,8 @@ struct Bracket {
   Real lo, hi, f_lo, f_hi;
 };
 
-/// The time that an interval between two nodes adds to those that represent the roots (see `solve_cubic`).
+/// Which time an interval between two nodes contributes to the times that represent the roots (see
+/// `solve_cubic`).
 enum Contribution : std::uint8_t { nothing, left_node, right_node, root_between };
 
 /// In each lane, the Contribution of an interval, as a number; `nothing` if the lane's cubic has no such

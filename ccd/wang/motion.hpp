@@ -249,7 +249,7 @@ VertexOrder closest_order(const Query& query, const Frame& frame) {
 
 }  // namespace detail
 
-/// Whether all vectors of the pair are within B. They are if the pair collides and, for two edges, p joins
+/// Whether all vectors of the pair are within B. This is so if the pair collides and, for two edges, p joins
 /// the end points that are closest at t = 0 (§4.1). The computed p has a relative error of at most u, and
 /// B >= B*(1 + 40ε). So a pair cannot collide if its p is not within B in the closest_order() of end points.
 template <Kind kind, class T>

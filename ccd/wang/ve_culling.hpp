@@ -73,14 +73,14 @@ inline constexpr int spread_error_if_wide = 3700;
 
 namespace detail {
 
-// Whether |F̂| exceeds the threshold at t - h and at t + h, as far as these times are in [0, 1].
+// Whether |F̂| exceeds the threshold at those of the times t - h and t + h that are in [0, 1].
 template <class T>
 auto brackets_root(const Cubic<T>& F, T t, T h, T threshold) {
   using std::abs;
   return ((t - h < T(0)) | (abs(F(t - h)) > threshold)) & ((t + h > T(1)) | (abs(F(t + h)) > threshold));
 }
 
-// μ + 2E + m: what |F̂| must exceed at t - h and t + h (see `excludes_collision`).
+// The threshold μ + 2E + m, which |F̂| must exceed at t - h and t + h (see `excludes_collision`).
 template <class T>
 T culling_threshold(T mu, T eps, T B) {
   return mu + (2 * evaluation_error + node_error) * eps * B * B * B;

@@ -20,7 +20,7 @@ enum class Stage : std::uint8_t {
   vv,           ///< Algorithm 1 (VV), KKT case 5 of VE
   filter,       ///< certified arithmetic in double
   exact,        ///< exact arithmetic
-  unspecified,  ///< the subject does not say which test accepted the pair, as no plug-in does
+  unspecified,  ///< the subject does not say which test accepted the pair (plug-ins never say)
   unknown,      ///< no test: the subject cannot decide the pair, which then counts as a collision
 };
 

@@ -111,8 +111,9 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 ///   or 0 or 1 if this time is outside [0, 1]. After a concave kink, G is below the piece. If a kink of some
 ///   |Q_k| comes first, go on to the computed time of that root.
 /// From t_E to the candidate, F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. The bound contains no square
-/// root of an error, because all candidates are nearly exact for one function, G, which is near F_0ij. The
-/// paper's 688 B²ε^½, for the distance from the computed root of one Q_k to the exact root, is not needed.
+/// root of an error, because all candidates are nearly exact times of kinks and minima of one function, G,
+/// which is near F_0ij. The paper's 688 B²ε^½, for the distance from the computed root of one Q_k to the
+/// exact root, is not needed.
 template <class T>
 Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol) {
   const auto is_near = [&](T t) { return detail::near_edge(ve, t, tol); };

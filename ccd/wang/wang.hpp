@@ -104,14 +104,14 @@ T sum_of_squares(const Pair<kind, T>& pair) {
 //
 // Let s be the `sum_of_squares`, s_x its part from positions, and s_v its part from velocities. An edge is
 // the difference of at most two vectors, so E <= √2 √s_x (motion.hpp). The relative velocity of two vertices
-// is a sum or difference of at most three of those of p, q and r (p + r - q for two edges), so W <= √3 √s_v.
-// By the Cauchy-Schwarz inequality, E + W <= √(5 s). μ is proportional to B³; let μ1 be the μ for B = 1. Then
-// μ <= 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2), and a clearance above 16 μ1 s^(3/2) is above 1.4 μ. Rounding
-// errors are too small to matter: all components are within √s, and velocities have errors of 4ε √s. So the
-// errors of F and of the clearance are together below 1000 ε s^(3/2) in every rounding mode (Theorem 4.1:
-// 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The order of end points does not matter either, since it
-// only changes the sign of F*. The code compares the squares of both sides, to avoid a square root. If s is
-// not in_range(), s³ might overflow or underflow, and the answer is false.
+// combines at most three velocities, those of p, q and r, by sums and differences (p + r - q for two edges),
+// so W <= √3 √s_v. By the Cauchy-Schwarz inequality, E + W <= √(5 s). μ is proportional to B³; let μ1 be the
+// μ for B = 1. Then μ <= 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2), and a clearance above 16 μ1 s^(3/2) is above
+// 1.4 μ. Rounding errors are too small to matter: all components are within √s, and velocities have errors of
+// 4ε √s. So the errors of F and of the clearance are together below 1000 ε s^(3/2) in every rounding mode
+// (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The order of end points does not matter
+// either, since it only changes the sign of F*. The code compares the squares of both sides, to avoid a
+// square root. If s is not in_range(), s³ might overflow or underflow, and the answer is false.
 template <Kind kind, class T, class Rule>
 auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& tolerances) {
   const T s = sum_of_squares(pair);
@@ -145,9 +145,9 @@ template <Kind kind, class T, WangOptions options, class Wide, class Rule>
   const auto hit = [](T t) { return Verdict::accepted(Stage::proximity, static_cast<double>(t)); };
   for (const T& t : roots)
     if (proximity(t, true)) return hit(t);
-  // The paper tests the roots, t = 0 and t = 1. Here, t = 0 and t = 1 count only if |F| <= μ at that time, as
-  // at the roots. If |F| <= μ at t = 0, t = 0 is among the roots, as the left node of the first interval.
-  // t = 1 need not be among the roots.
+  // The paper tests the roots, and also t = 0 and t = 1. Here, t = 0 and t = 1 count only if |F| <= μ at that
+  // time, as at the roots. If |F| <= μ at t = 0, t = 0 is among the roots, as the left node of the first
+  // interval. t = 1 need not be among the roots.
   using std::abs;
   if (abs(F(T(1))) <= tol.mu && proximity(T(1), false)) return hit(T(1));
   if (culled) return Verdict::rejected(roots.count == 0 ? Rejection::no_root : Rejection::culled);

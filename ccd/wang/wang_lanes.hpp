@@ -57,7 +57,7 @@ class WangLanes {
   /// A list of rows: indices of queries in the batch.
   class Rows {
    public:
-    /// Adds a row if `wanted` is true, without a branch.
+    /// Adds a row if `wanted` is true. The code has no branch.
     void add_if(bool wanted, std::size_t row) {
       rows_[size_] = static_cast<std::uint8_t>(row);
       size_ += wanted ? 1 : 0;
@@ -87,15 +87,15 @@ class WangLanes {
     return points;
   }
 
-  /// Lane k holds element first + k of a list with `size` elements, if there is such an element. Calls
-  /// visit(lane) for each lane that holds an element.
+  /// Calls visit(lane) for each lane that holds an element of a list with `size` elements. Lane k holds
+  /// element first + k if the list has such an element.
   template <class Visit>
   static void for_lanes(std::size_t first, std::size_t size, const Visit& visit) {
     const std::size_t count = std::min<std::size_t>(n, size - first);
     for (std::size_t lane = 0; lane < count; ++lane) visit(lane);
   }
 
-  /// The lanes as an array.
+  /// The values of the lanes, as an array.
   static std::array<double, n> each(const Real& lanes) {
     std::array<double, n> numbers;
     lanes.store(numbers.data());
@@ -107,7 +107,7 @@ class WangLanes {
     return truths;
   }
 
-  /// Writes n zeros after the end of a list, to be loaded into lanes that have no element.
+  /// Writes n zeros after the end of a list. Lanes that have no element load these zeros.
   template <class Numbers>
   static void pad(Numbers& numbers, std::size_t size) {
     std::fill_n(numbers.begin() + static_cast<std::ptrdiff_t>(size), n, 0);
@@ -121,7 +121,8 @@ class WangLanes {
       const Points x = points([&](std::size_t lane) { return rows[i + lane]; });
       const auto separated =
           each(Mask(detail::separated_across_axis<kind>(x) | detail::separated_across_diagonal<kind>(x)));
-      // Four sums are faster than one: each addition to a sum must wait for the previous one.
+      // Four sums are faster than one, because each addition must wait for the previous addition to the same
+      // sum.
       std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; ++c) sums[c % 4] += x.x[c];
       const auto finite = each(Mask(abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < Real(HUGE_VAL)));
@@ -164,14 +165,15 @@ class WangLanes {
     Cubic<Real> F;
     Real W, B;
   };
-  /// The Polynomial of n queries. take(column) returns the numbers of these queries from a column.
+  /// The Polynomial of n queries. The caller chooses the queries: take(column) returns their numbers from a
+  /// column.
   template <class Take>
   Polynomial polynomial(const Take& take) const {
     return {{take(columns_[0]), take(columns_[1]), take(columns_[2]), take(columns_[3])},
             take(columns_[4]),
             take(columns_[5])};
   }
-  /// The Polynomial of the queries left_[place(lane)], one in each lane.
+  /// The Polynomial of n queries; lane k has the query with row left_[place(k)].
   template <class PlaceOfLane>
   Polynomial polynomial_at(const PlaceOfLane& place) const {
     return polynomial([&](const auto& column) {

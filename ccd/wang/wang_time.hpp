@@ -32,8 +32,8 @@ inline constexpr int least_residual = 440;
 /// Let every operation have a relative error of at most u = ε/2. No component of a position or velocity
 /// exceeds B in magnitude, except that in an edge-edge pair, the components of p may be up to 2B at t = 1.
 /// - Position: p, q and r have an error of uB each, 3uB together. The two sums of p - q + r add 5uB.
-/// - Velocity: p has an error of u(|start| + |end| + |v|) <= 4uB; q and r have 3uB each. These are 10uB, and
-///   the two sums add 5uB. Together with the position, this is 23uB.
+/// - Velocity: p has an error of u(|start| + |end| + |v|) <= 4uB; q and r have 3uB each. The sum is 10uB, and
+///   the two sums of p - q + r add 5uB. Position and velocity together have an error of 23uB.
 /// - A diagonal adds two components: 46uB. The two sums, of positions and of velocities, add 6uB each: 58uB.
 /// - The time is a quotient, and the subtraction in its numerator adds one rounding. So the time is too large
 ///   by a factor of at most 1 + 3u. The distance changes by at most 6B in the whole step, so by at most 18uB
@@ -88,7 +88,7 @@ T separated_until(const Pair<kind, T>& pair) {
   return latest;
 }
 
-/// A time in interval i before which the exact F has no root in this interval.
+/// A time in interval i; before this time, the exact F has no root in the interval.
 ///
 /// By (2) of `solve_cubic`, there is no root between two times of the interval at which F has the same sign
 /// and |F| exceeds `residual` - h, where h is the error of evaluating F. To find such a time, the function
@@ -111,9 +111,9 @@ T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residua
 ///
 /// The time t0 of a contact is a root of the exact F. The claim of `solve_cubic` holds for each interval
 /// between two nodes, and for a part of an interval: if t0 is in the interval, `root_in_interval` returns a
-/// time that represents t0. So an interval has no contact if `root_in_interval` finds no time, or if
-/// `excludes_collision` is true for this time. In the first interval without such a proof, there is no
-/// contact before the time that `before_root` gives.
+/// time that represents t0. So an interval has no contact if `root_in_interval` finds no time, or a time for
+/// which `excludes_collision` is true. In the first interval without such a proof, there is no contact before
+/// the time that `before_root` gives.
 template <Kind kind, class T>
 T rootless_until(const Pair<kind, T>& pair, T from) {
   const Cubic<T> F = coplanarity(pair);

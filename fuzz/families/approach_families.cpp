@@ -1,4 +1,4 @@
-// Queries in which the primitives just reach the separation h > 0, or reach it at a time that is hard to
+// Queries in which the distance just falls to the separation h > 0, or falls to it at a time that is hard to
 // find. In most of these families, numbers have few bits, so that distances and times are exact. x is the
 // family's parameter.
 #include <array>
@@ -140,7 +140,7 @@ Query starts_near_separation(Random& random, Kind kind, double x) {
 /// the others, they pass each other at a distance of h, h + 1/8 or h - 1/8; if h is less than 1/8, at a
 /// distance of h, 2 h or 0.
 Query sized_separation(Random& random, Kind kind, double x) {
-  constexpr double least_that_turns = 0x1p-42;  // so that turned() needs at most 53 bits
+  constexpr double least_that_turns = 0x1p-42;  // for a smaller h, turned() may need more than 53 bits
   const double h = 4 * power_of_ten(x);
   const double time = sixteenths(random, 1, 15);
   const Contact contact = facing_contact(random, kind, draw_closest(random, kind), time);
@@ -164,7 +164,7 @@ std::vector<Family> approach_families() {
   Family near =
       with_parameter("near-separation", "h is just above or below the smallest distance",
                      {"h differs from the smallest distance by 2^x of it", -54, -4, true, near_separation});
-  near.block_cases = 3;  // the exact distance is slow
+  near.block_cases = 3;  // few, because the exact distance takes long to compute
   return with_own_separations({
       std::move(near),
       with_parameter("tied-separation", "the smallest distance is exactly h, or h is then moved",

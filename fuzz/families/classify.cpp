@@ -65,7 +65,7 @@ Points<Real> points(const Query& query, std::size_t time) {
 
 template <class Real>
 Real largest_component(const Vec<Real>& v) {
-  using std::max;  // CGAL has a max for intervals
+  using std::max;  // for intervals, the calls find CGAL's max
   Real largest = max(v[0], -v[0]);
   for (std::size_t k = 1; k < 3; ++k) largest = max(largest, max(v[k], -v[k]));
   return largest;
@@ -188,10 +188,10 @@ Real sum_of_squares(std::span<const VertexPair> pairs, const Points<Real>& x) {
   return sum;
 }
 
-/// The squares of three lengths, whose product is compared with F². For two edges, `first` and `second` are
-/// their squared lengths; for a triangle, both are the sum of its squared sides. `gap` is the sum of the
-/// squared distances from each vertex of one primitive to each vertex of the other. README.md has means
-/// instead of these sums, so the product of the sums is too large by the factor `excess`.
+/// The squares of three lengths. The product of these squares is compared with F². For two edges, `first` and
+/// `second` are their squared lengths; for a triangle, both are the sum of its squared sides. `gap` is the
+/// sum of the squared distances from each vertex of one primitive to each vertex of the other. README.md has
+/// means instead of these sums, so the product of the sums is too large by the factor `excess`.
 template <class Real>
 struct Squares {
   Real first, second, gap;
@@ -312,7 +312,7 @@ std::string_view degeneracy(const Query& query) {
   EarliestTime first(query, h == 0 ? nearer.known : KnownTimes{});
   if (is_at_most(first, nearly) || !first.is_before(1 - nearly)) return "contact at an end";
   if (h > 0) return "";  // vertices and edges may be the closest features even in general position
-  if (!is_of_meshes(query.kind)) return "contact of vertices";  // contact happens only by coincidence
+  if (!is_of_meshes(query.kind)) return "contact of vertices";  // such primitives touch only by coincidence
   const auto root = [&] {
     if (nearer.known.exactly) return nearer.known.exactly->time;
     exact::Predicates predicates(query);

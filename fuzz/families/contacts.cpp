@@ -87,7 +87,7 @@ Aim ContactSampler::aim(Kind kind) {
   aim.alpha = weight();
   aim.beta = weight();
   aim.time = weight();
-  if (has_triangle(kind) && aim.alpha + aim.beta > 1) {  // in the parallelogram's other half
+  if (has_triangle(kind) && aim.alpha + aim.beta > 1) {  // beyond the edge x2x3 of the triangle
     aim.alpha = 1 - aim.alpha;
     aim.beta = 1 - aim.beta;
   }

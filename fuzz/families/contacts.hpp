@@ -92,7 +92,7 @@ constexpr double alpha_sign(Kind kind) { return has_triangle(kind) ? 1 : -1; }
 Query moved(Query query, const Vector3<double>& by);
 Query with_first_moved(Query query, const Vector3<double>& by);
 
-/// Scales a query and its separation by a power of two, and shuffles it. All of this is exact.
+/// Scales a query and its separation by a power of two, and shuffles the query. Both operations are exact.
 Query rescaled(Random& random, Query query);
 
 /// Moves one query in four by an integer vector; this is exact if coordinates are integers. Then calls

@@ -52,7 +52,8 @@ std::string text_of(const Numbering& numbering, std::size_t place, int values) {
   return values == 1 ? last : fmt::format("{} {}", text_of(numbering, place / size, values - 1), last);
 }
 
-/// Compares the combinations that occur in some queries (`seen`) with those that the family makes (`made`).
+/// Counts the combinations that the family makes (`made`), and those of them that occur in the given queries
+/// (`seen`). Lists the others as missing.
 Combinations compared(const Numbering& numbering, const std::vector<bool>& seen,
                       const std::vector<bool>& made, int values) {
   Combinations result;

@@ -34,7 +34,7 @@ constexpr std::array<Factor, factor_count> all_factors{{{"shape", shape_names},
 /// multiple root there.
 bool is_flat(Shape shape) { return shape >= Shape::parallel; }
 
-/// Whether the motion leaves the directions of q and r free to change in any way.
+/// Whether the directions of q and r may change in any way during the motion.
 bool is_free(Motion motion) {
   return motion == Motion::deforming || motion == Motion::fast || motion == Motion::slow;
 }

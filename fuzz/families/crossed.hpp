@@ -55,14 +55,15 @@ std::vector<std::string> to_texts(const Levels& levels);
 
 Query make_query(Random& random, Kind kind, const Levels& levels);
 
-/// How many combinations of the values of two factors (or of three) the family makes, and how many are seen.
+/// Counts combinations of the values of two factors, or of three: `made` are those that the family makes,
+/// `seen` are those of them that occur in the queries that coverage() looks at.
 struct Combinations {
-  std::uint64_t made = 0;  ///< number of combinations that the family makes
+  std::uint64_t made = 0;
   std::uint64_t seen = 0;
   std::vector<std::string> missing;  ///< made, but not seen, such as "shape=sliver when=at-1"
 };
 
-/// The combinations that occur in some queries of the family.
+/// Which combinations of values occur in the queries that coverage() looks at.
 struct Coverage {
   Combinations pairs, triples;
   std::vector<std::string> pairs_not_made;

@@ -35,7 +35,7 @@ Vector multiple(Random& random, const Vector& v) {
   return std::ldexp(sign, random.integer(-1, 1)) * v;
 }
 
-/// A vector in the plane of two vectors: a sum of a multiple() of each.
+/// A vector in the plane of two vectors: the sum of a multiple() of a and a multiple() of b.
 Vector in_plane(Random& random, const Vector& a, const Vector& b) {
   const Vector along_a = multiple(random, a);
   return along_a + multiple(random, b);
@@ -133,7 +133,7 @@ void deform(Random& random, Draft& draft, Roots roots, double time, double speed
       draft.r_velocity = in_plane(random, a, b) / 16;
       break;
     case Roots::two:
-    case Roots::three: {  // q becomes parallel to w at one time, and r at another time
+    case Roots::three: {  // q becomes parallel to w at one time; for three roots, r does at another
       const double first = other_time(time, random.one_in(2) ? 0.5 : 0.25);
       const double second = other_time(time, 0.125);
       const Vector along = draft.w / speed;
@@ -175,15 +175,15 @@ Draft draft_of(Random& random, Kind kind, const Levels& levels, double time) {
     case Motion::slow:
       deform(random, draft, levels.roots(), time, 0x1p-10);
       break;
-    case Motion::along:  // for all roots that has_roots() allows, deform() puts w into the plane
+    case Motion::along:  // has_roots() allows only roots for which deform() puts w into the plane
     case Motion::deforming:
       deform(random, draft, levels.roots(), time, 1);
   }
   return draft;
 }
 
-/// Whether F has no more roots at the contact than planned. Let F = τ (a + b τ + c τ²). The construction
-/// makes the first of these coefficients zero, as many as planned; the next coefficient must not be zero by
+/// Whether F has no more roots at the contact than planned. Let F = τ (a + b τ + c τ²). By construction, a is
+/// zero for a double root, and a and b are zero for a triple root. The next coefficient must not be zero by
 /// chance.
 bool has_planned_roots(const Draft& draft, Roots roots) {
   const auto det = [&](const Vector& q, const Vector& r) { return draft.w.dot(q.cross(r)); };

@@ -44,9 +44,9 @@ struct Motion {
 };
 
 constexpr double rounded_to = 1e-6;
-/// Motions found by random search. Let h be at most 1.09 times the smallest distance (1.22 times for the
-/// first four motions). Among the candidate times of the paper's Algorithm 2 (vertex_edge.hpp), only those of
-/// case 2, the minima of pieces, then have the vertex within h of the edge.
+/// Motions found by random search. The paper's Algorithm 2 (vertex_edge.hpp) tests several candidate times.
+/// If h is at most 1.09 times the smallest distance (1.22 times for the first four motions), the vertex is
+/// within h of the edge only at the candidate times of case 2, the minima of pieces.
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},
@@ -155,7 +155,7 @@ std::vector<Family> edge_families() {
     return [most](const char* name, const char* about, auto make) {
       Family family = with_parameter(
           name, about, {"h differs from the smallest distance by up to 2^x of it", -40, most, false, make});
-      family.block_cases = 3;  // the exact distance is slow
+      family.block_cases = 3;  // few, because the exact distance takes long to compute
       return family;
     };
   };

@@ -29,8 +29,8 @@ Query stiff(Random& random, Kind kind, double x) {
 }
 
 /// One of the sides q and r is shorter than the other. In half of the queries, the contact is near the
-/// triangle's corner x1 (vertex-triangle) or near an end of the long edge (edge-edge); its distance from
-/// there is at most about the length of the short side.
+/// triangle's corner x1 (vertex-triangle) or near an end of the long edge (edge-edge): at most about the
+/// length of the short side away.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -71,7 +71,7 @@ Query scale(Random& random, Kind kind, double x) {
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const auto first_vertices = static_cast<std::size_t>(split(kind));
-  const int only = random.integer(0, 5);  // the only huge axis; if 3 or more, each is huge at random
+  const int only = random.integer(0, 5);  // the only huge axis; if 3 or more, any axis may be huge
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
     const double size = huge ? 0x1p1022 : 1;
@@ -174,8 +174,9 @@ Query needle(Random& random, Kind kind, double x) {
 }
 
 /// Both primitives turn as one rigid body between t = 0 and t = 1, except that each vertex moves in a
-/// straight line. So at every time, one affine map takes both primitives from their places at t = 0, and
-/// points that coincide would stay together. Only the relative motion `apart` separates the primitives.
+/// straight line. So for every time, one affine map takes both primitives from their places at t = 0 to their
+/// places at that time. Under this motion, points that coincide stay together. Only the relative motion
+/// `apart` separates the primitives.
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };

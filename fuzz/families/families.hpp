@@ -51,9 +51,9 @@ Family with_collisions(Family family);
 /// if its parameter cannot have this value.
 Family at_value(const Family& family, double value);
 
-/// The family at `steps` evenly spaced values of its parameter, from the lowest to the highest. If the
-/// parameter is whole and has fewer values than `steps`, each value occurs once. Throws Error if the family
-/// has no parameter.
+/// The families NAME@VALUE for `steps` evenly spaced values of the family's parameter, from the lowest to the
+/// highest. If the parameter is whole and has fewer values than `steps`, each value occurs once. Throws Error
+/// if the family has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
 /// If the separation is given as this text instead of a number, each query draws its own separation.
@@ -80,12 +80,12 @@ std::span<const Family> families();
 std::span<const Family> separation_families();
 
 /// The families of vertex-vertex and vertex-edge queries. Most of these families take the queries of another
-/// family, and leave out the last vertices: "v-uniform" takes its queries from "uniform". Such primitives
-/// touch only by coincidence, so campaigns give the queries separations.
+/// family, and leave out the last vertices: "v-uniform" takes its queries from "uniform". Two vertices, or a
+/// vertex and an edge, touch only by coincidence, so campaigns give the queries separations.
 std::span<const Family> vertex_families();
 
-/// The family that campaigns use by default. It is `family`, except that vertex-vertex and vertex-edge
-/// queries draw separations if `family` has no separations of its own.
+/// The family in the form that campaigns use by default. A family of vertex-vertex and vertex-edge queries
+/// without separations of its own gets drawn separations; any other family stays as it is.
 Family as_asked(const Family& family);
 
 /// families() and separation_families(): all families of vertex-triangle and edge-edge queries.
@@ -102,13 +102,13 @@ std::span<const Family> all_families();
 /// throws an Error that lists the known families.
 Family find_family(std::string_view name, std::span<const Family> known = all_families());
 
-/// The kind of a family's query `index`. Even index: vertex-triangle, or in a family of vertices,
-/// vertex-vertex. Odd index: edge-edge, or in a family of vertices, vertex-edge.
+/// The kind of a family's query `index`. Queries with even indices are vertex-triangle (in a family of
+/// vertices, vertex-vertex), those with odd indices edge-edge (in a family of vertices, vertex-edge).
 inline Kind kind_of(const Family& family, std::uint64_t index) { return family.kinds[index % 2]; }
 
 bool has_kind(const Family& family, Kind kind);
 
-/// Throws an Error that starts with `where` if the family has no queries of a kind.
+/// Throws an Error that starts with `where` if the family has no queries of this kind.
 void expect_kind(const Family& family, Kind kind, std::string_view where);
 
 /// The kinds about which campaigns ask: Family::only if it is set, otherwise both kinds of the family.

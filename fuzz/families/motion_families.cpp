@@ -37,10 +37,10 @@ Query touching_at_rest(Random& random, Kind kind) {
 }
 
 /// Primitives of size 10^x that touch exactly at t = 1. They start up to 1,024 times their size away from
-/// there, and change their shape on the way. The difference between the positions at t = 0 and at t = 1 has
-/// more bits than a double. A CCD that computes positions at t = 1 from this difference misses the contact
-/// unless it allows for rounding errors. In three queries of four, both primitives are flat along an axis at
-/// all times, like a garment that falls onto a floor.
+/// their places at t = 1, and change their shape on the way. The difference between the positions at t = 0
+/// and at t = 1 has more bits than a double. A CCD that computes positions at t = 1 from this difference
+/// misses the contact unless it allows for rounding errors. In three queries of four, both primitives are
+/// flat along an axis at all times, like a garment that falls onto a floor.
 Query far_end(Random& random, Kind kind, double x) {
   const double size = power_of_ten(x);
   Query query = touching_at_rest(random, kind);

@@ -272,7 +272,8 @@ Query applied(Apply apply, Random& random, const Query& query) {
   return is_finite(result) && std::isfinite(result.separation) ? result : query;
 }
 
-/// Changes a separation h > 0 by a fraction or by a power of two, or makes it a power of two.
+/// Changes a separation h > 0 by a fraction, multiplies or divides it by a power of two, or rounds it down to
+/// a power of two.
 Query separation_changed(Random& random, const Query& query) {
   const double h = query.separation;
   switch (random.integer(0, 2)) {

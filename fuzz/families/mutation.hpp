@@ -13,9 +13,9 @@ namespace nearmiss {
 /// never changes. The result is finite if `query` is.
 Query mutated(Random& random, const Query& query);
 
-/// Combines two queries. For each vertex, for each axis, for each end of the step, or for each single
-/// coordinate, draws the query that gives the coordinates. The kind and the separation each come from one of
-/// the two queries.
+/// Combines two queries. Groups the coordinates by vertex, by axis or by end of the step, or leaves them
+/// single, and takes each group from one of the two queries, drawn at random. Kind and separation are drawn
+/// in the same way.
 Query crossed(Random& random, const Query& first, const Query& second);
 
 }  // namespace nearmiss

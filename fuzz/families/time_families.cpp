@@ -25,8 +25,8 @@ struct Factor {
 };
 
 /// The weights α / whole and β / whole, as in Contact, of a point that may be outside the primitives. If
-/// `whole` is 0, no such point exists: at the root of the factor, s α q = -β r with s = alpha_sign(kind), so
-/// the sides are parallel.
+/// `whole` is 0, no such point exists. Then s α q = -β r with s = alpha_sign(kind) at the root of the factor,
+/// so the sides are parallel at that time.
 struct Weights {
   int whole, alpha, beta;
 

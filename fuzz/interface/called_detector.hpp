@@ -11,11 +11,12 @@
 
 namespace nearmiss {
 
-/// Calls a detector in this process. If the detector throws a C++ exception, the query that it was asked gets
-/// a fault.
+/// Calls a detector in this process. If the detector throws a C++ exception on a query, the verdict on this
+/// query is a fault.
 class CalledDetector final : public DescribedSubject {
  public:
-  /// The detector's functions get `state`. With `at_once`, several threads may call these functions at once.
+  /// The detector's functions get `state` as their first argument. If `at_once` is true, several threads may
+  /// call these functions at once.
   CalledDetector(const nearmiss_subject& detector, void* state, bool at_once);
 
   using DescribedSubject::decide;

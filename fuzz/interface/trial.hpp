@@ -50,7 +50,8 @@ namespace nearmiss {
 
 using plugin::Question;
 
-inline constexpr int of_the_form = -1;  ///< estimates if a function returns optional, else no times
+/// A value of TrialOptions::time_sort: a function that returns optional gives estimates, others no times.
+inline constexpr int of_the_form = -1;
 
 /// The queries of a trial, the length of the trial, and the promises of the CCD.
 struct TrialOptions {
@@ -60,8 +61,8 @@ struct TrialOptions {
   int kinds = 0;                 ///< sum of NEARMISS_VERTEX_TRIANGLE and so on; 0: all that the CCD decides
   std::uint64_t seed = 1;        ///< the seed of the random queries
   std::uint64_t cases = 20'000;  ///< number of queries; 0: until the time is over
-  std::chrono::duration<double> time{};  ///< time for the queries; simplification gets one second more; 0: no
-                                         ///< limit
+  std::chrono::duration<double> time{};  ///< time for the queries (0: no limit); simplification gets one
+                                         ///< second more
   int threads = 1;                       ///< how many threads call the CCD at once
   int time_sort = of_the_form;   ///< what the times of a function mean: NEARMISS_TIME_LOWER_BOUND and so on
   nearmiss_contract contract{};  ///< the contract of a function; a detector states its own contract

@@ -12,7 +12,7 @@ namespace nearmiss {
 
 /// Facts about the trial that the text mentions.
 struct TrialSetting {
-  std::string subject;     ///< the detector's name, which stands for the detector in the example
+  std::string subject;     ///< the detector's name; the example uses it if it is an identifier
   std::string_view check;  ///< the macro that checks the example
   std::uint64_t seed;
 };

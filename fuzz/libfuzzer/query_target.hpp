@@ -43,8 +43,8 @@ enum class Signal {
 /// query has values of its own.
 void show(Signal signal, Kind kind, std::size_t value);
 
-/// Shows libFuzzer how near `factor`, a number below 1, is to 1: the number of a step on a scale that becomes
-/// finer towards 1. NaN shows nothing.
+/// Shows libFuzzer how near `factor`, a number below 1, is to 1. The value that it shows is the number of a
+/// step on a scale whose steps become finer towards 1. If `factor` is NaN, shows nothing.
 void show_factor(Signal signal, Kind kind, double factor);
 
 /// Writes the query as a case of the failure `what` into the folder that the variable NEARMISS_CASES names,

@@ -1,6 +1,6 @@
-// libFuzzer target: the reader of stores, *.db, and what commands do with a store that it accepts. The input
-// has a line for each SQL statement that makes the store, because a store whose bytes are changed at random
-// would hardly ever get past its checksums.
+// libFuzzer target: the reader of stores, *.db, and the commands that use a store which this reader accepts.
+// The input has a line for each SQL statement that makes the store, because a store whose bytes are changed
+// at random would hardly ever get past its checksums.
 #include "reports/store/store.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>

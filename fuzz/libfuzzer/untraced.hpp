@@ -18,9 +18,9 @@ class Untraced {
   std::vector<std::uint8_t> counters_;
 };
 
-/// Calls `ask`, and hides the coverage of this call from libFuzzer. Used for the oracle and all other code
-/// that is not on trial. Exact arithmetic has many branches; libFuzzer would follow these instead of the
-/// subject's branches, and take several times longer.
+/// Calls `ask`, and hides the coverage of this call from libFuzzer. Targets call the code that is not on
+/// trial, in most targets the oracle, through this function. Exact arithmetic has many branches; libFuzzer
+/// would follow these instead of the subject's branches, and take several times longer.
 template <class Ask>
 auto untraced(const Ask& ask) {
   const Untraced guard;

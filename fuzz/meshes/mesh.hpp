@@ -34,7 +34,8 @@ void expect_same_primitives(const Mesh& first, const std::string& first_name, co
 /// The connected components of a mesh.
 struct Bodies {
   int count = 0;
-  std::vector<int> of_point;  ///< the body of each point; bodies are numbered by their first points, from 0
+  /// The body of each point. Bodies are numbered from 0, in the order of their first points.
+  std::vector<int> of_point;
 };
 
 /// The bodies of a mesh. Points that a triangle or a line joins belong to the same body, and a point in no

@@ -31,7 +31,7 @@ Words after_keyword(Lines& lines) {
   const bool here = lines.next();
   const std::string_view keyword = here ? lines.words()[0] : std::string_view();
   std::string_view kind = keyword;
-  for (const std::string_view extra : {"ST", "C", "N"})  // further data of a vertex
+  for (const std::string_view extra : {"ST", "C", "N"})  // each stands for further data of a vertex
     if (kind.starts_with(extra)) kind.remove_prefix(extra.size());
   if (kind != "OFF") throw lines.error(shown(keyword), "OFF, or with ST, C or N before it");
   if (lines.words().size() > 1) return Words(lines.words()).subspan(1);
@@ -53,7 +53,8 @@ MeshSize read_size(Lines& lines, std::string_view name) {
   return {vertices, parse_count(counts[1], largest_int, "a number of faces", lines)};
 }
 
-/// The words of the next line, which must have a vertex or a face: number `index`, from 0, of `count`.
+/// The words of the next line. It must have the vertex or face with number `index`, from 0; the file has
+/// `count` of these.
 Words next_line(Lines& lines, std::string_view what, int index, int count) {
   if (!lines.next())
     throw lines.error("the end of the file", fmt::format("{} {} of {}", what, index + 1, count));

@@ -29,7 +29,7 @@ Query at_rest(const Query& query) {
 
 namespace {
 
-/// The largest side of the box around both primitives, at most the largest double.
+/// The largest side of the box around both primitives; the largest double if the side overflows.
 double size_of(const Query& query) { return std::min(extent(query), std::numeric_limits<double>::max()); }
 
 /// The error that the judge tolerates at this distance and size.

@@ -40,10 +40,11 @@ struct DistanceError {
   /// The weights do not add up to 1, are negative, or give points that are too far apart.
   bool wrong_weights = false;
 
-  /// `over` and `under`, divided by d. An error other than 0 becomes infinite if the primitives touch.
+  /// `over` and `under`, divided by d. If the primitives touch, the quotient of an error other than 0 is
+  /// infinite.
   [[nodiscard]] double over_by_distance() const;
   [[nodiscard]] double under_by_distance() const;
-  /// `over` and `under`, divided by `size`; at most 1, and 0 for an error of 0.
+  /// `over` and `under`, divided by `size`. A quotient above 1 becomes 1; if the error is 0, the result is 0.
   [[nodiscard]] double over_by_size() const;
   [[nodiscard]] double under_by_size() const;
 };

@@ -53,7 +53,7 @@ struct QuestionResults {
   /// Answers by the value of a factor (a property that a family varies, such as the angle). In this table,
   /// every answer counts as a collision, and an unsafe answer as a missed collision.
   FactorTable factors;
-  std::vector<QuestionFinding> findings;  ///< one of each kind (see take()), ordinary ones first
+  std::vector<QuestionFinding> findings;  ///< without repetitions (see take()), ordinary ones first
 
   void merge(QuestionResults&& other) {
     for (const auto& [key, each] : other.counts) counts[key].merge(each);
@@ -115,7 +115,7 @@ class QuestionTrial {
  private:
   static constexpr std::uint64_t one_in_asked_twice = 256;
 
-  /// A family, and the only subject that is asked about its queries; null if all subjects are asked.
+  /// A family. If `only` is not null, only this subject is asked about the family's queries.
   struct Source {
     Family family;
     const Subject* only;
@@ -179,7 +179,7 @@ class QuestionTrial {
         for (const auto& subject : subjects_)
           if (can_ask(*work.source, *subject, kind)) count(*subject, query, index, factors, work);
       }
-    } catch (const Stopped&) {  // the answers before the stop count
+    } catch (const Stopped&) {  // the answers that came before the stop still count
     }
   }
 

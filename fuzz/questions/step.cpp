@@ -20,7 +20,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The query with the positions y at t = 1.
+/// The query, with its positions at t = 1 replaced by y.
 Query to_positions(const Query& query, const std::array<double, 12>& y) {
   Query step = query;
   std::copy_n(y.begin(), 3 * vertices(query.kind), step.x.begin() + 12);

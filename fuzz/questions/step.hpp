@@ -57,7 +57,7 @@ struct StepQuestion {
     std::uint64_t cut_free = 0;          ///< steps with Judged::cuts_free
     std::uint64_t objects = 0;           ///< steps with Judged::objects
     Histogram kept;                      ///< Judged::kept of all answers
-    std::vector<FarCase> least_kept;     ///< with 1 - kept as their value
+    std::vector<FarCase> least_kept;     ///< the value of a case is 1 - Judged::kept
 
     static constexpr auto counters() {
       return std::tuple{Counter{"queries", &Counts::queries},

@@ -19,8 +19,8 @@ class CandidatePasser {
   CandidatePasser(const MovingMesh& mesh, Kind kind, const Sink& sink, const IsOver& is_over)
       : mesh_(mesh), kind_(kind), sink_(sink), is_over_(is_over) {}
 
-  /// Passes on a pair. Vertex-triangle: vertex i and triangle j. Edge-edge: edges i and j. Throws Stopped if
-  /// the search must end.
+  /// Passes on or counts the pair of vertex i and triangle j, or of the edges i and j. Now and then asks
+  /// `is_over` whether the search must end, and throws Stopped if so.
   void pass(std::size_t i, std::size_t j) {
     constexpr std::uint64_t now_and_then = 1 << 16;
     if (++passed_ % now_and_then == 0 && is_over_()) throw Stopped();
@@ -58,12 +58,12 @@ class CandidatePasser {
 
 // --- by a hierarchy of boxes ----------------------------------------------------------------------------
 
-/// The vertices (or edges) of consecutive rows (pair_rows) that are near each other, and their partners: the
-/// triangles (or edges) near these vertices (or edges).
+/// Consecutive rows (pair_rows) whose vertices (or edges) are near each other, and the partners of these
+/// rows: the triangles (or edges) near their vertices (or edges).
 class Block {
  public:
-  /// Begins the block with row `first`. The block ends before row `end`, after 16 rows, or before the box
-  /// around its rows would exceed size `most`. Returns the first row after the block.
+  /// Begins the block with row `first`. The block ends at the latest before row `end`, after 16 rows, or
+  /// before the size of the box around its rows would exceed `most`. Returns the first row after the block.
   std::size_t start(const PrimitiveBoxes& boxes, std::size_t first, std::size_t end, std::int64_t most) {
     first_ = first;
     bounds_ = boxes[first];
@@ -91,7 +91,7 @@ class Block {
   }
 
   /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and of the partners.
-  /// With `after`, only calls pass() for partners with a larger number than the row.
+  /// If `after` is true, leaves out partners whose number is not larger than the row's.
   template <class Pass>
   void compare(bool after, const Pass& pass) const {
     for (std::size_t i = 0; i < rows_.size(); ++i) {

@@ -26,7 +26,7 @@ struct Candidate {
 /// A pair that a subject reports.
 struct ReportedPair {
   Candidate pair;
-  double time;  ///< of impact, in [0, 1]; NaN if the subject gives none
+  double time;  ///< the time of impact, in [0, 1]; NaN if the subject gives none
 };
 
 Query make_query(const MovingMesh& mesh, const Candidate& candidate);
@@ -59,7 +59,7 @@ class CandidateFinder {
 
   /// Passes each pair of a part to `sink` once, except pairs of primitives with a common vertex, and returns
   /// the number of these excepted pairs. Stores no pairs, so a scene of any size can be streamed. Calls
-  /// `is_over` now and then; if `is_over` returns true, returns early or throws Stopped.
+  /// `is_over` now and then, and returns early if it returns true.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
  private:

@@ -12,14 +12,14 @@
 
 namespace nearmiss {
 
-/// A coordinate, counted in cells of a grid over a whole mesh.
+/// A coordinate in a grid of cells that covers a whole mesh.
 using Cell = std::int32_t;
 
 /// A closed box of cells.
 struct CellBox {
   std::array<Cell, 3> lo, hi;
 
-  /// A box that meets no box of cells.
+  /// The empty box, which meets no box.
   static constexpr CellBox none() {
     constexpr Cell far = std::numeric_limits<Cell>::max();
     return {.lo = {far, far, far}, .hi = {-far, -far, -far}};
@@ -47,9 +47,9 @@ struct CellBox {
 /// (oracle/filter/box.hpp), the boxes around the cells of their vertices meet. The converse is nearly true,
 /// since a cell is 2^-31 of the mesh's largest extent.
 ///
-/// The guarantee that boxes meet needs no bound on rounding errors: all operations that turn a coordinate
-/// into a cell are monotone even when rounded, so coordinates x <= y have cells cell(x) <= cell(y). Works on
-/// `jobs` threads. Throws Error for a coordinate that is not finite.
+/// Rounding errors do not keep the boxes of cells from meeting: all operations that turn a coordinate into a
+/// cell are monotone even when rounded, so coordinates x <= y have cells cell(x) <= cell(y). Works on `jobs`
+/// threads. Throws Error for a coordinate that is not finite.
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs);
 
 /// The boxes of the vertices, edges or triangles of a mesh.

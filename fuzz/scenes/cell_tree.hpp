@@ -70,7 +70,8 @@ class CellBoxGroup {
 
 /// A tree of groups. A group of the lowest level has boxes of primitives that are near each other. A group of
 /// the next level has the bounds of such groups, and so on. The groups are chosen at the first step of a
-/// mesh. Later steps move the boxes and keep the groups, until the groups' bounds have become much larger.
+/// mesh. Later steps move the boxes and keep the groups. New groups are chosen when the groups' bounds,
+/// compared with the primitives' boxes, have become much larger.
 class CellTree {
  public:
   /// Throws Stopped when `is_over` returns true.
@@ -80,8 +81,8 @@ class CellTree {
   /// `is_over` returns true.
   void move(const PrimitiveBoxes& boxes, int jobs, const std::function<bool()>& is_over);
 
-  /// The median size of the groups of the lowest level; the size of a group is that of its bounds. If there
-  /// are many groups, the median is that of a sample of them.
+  /// The median size of the bounds of the groups of the lowest level. If there are many groups, it is the
+  /// median of a sample.
   [[nodiscard]] std::int64_t typical_group() const;
 
   /// Calls visit(number) for each box that meets `box` and whose number is at least `least`.

@@ -12,7 +12,7 @@ namespace nearmiss {
 namespace {
 
 constexpr std::size_t timed_pairs = 20000;
-constexpr int timings = 5;  // the shortest time counts, since disturbances only add time
+constexpr int timings = 5;  // the result is the shortest time, since disturbances only add time
 
 double quickest_ns(const Subject& subject, const std::vector<Query>& queries) {
   using Clock = std::chrono::steady_clock;

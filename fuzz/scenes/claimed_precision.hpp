@@ -15,8 +15,8 @@ namespace nearmiss {
 struct ClaimedPrecision {
   std::string subject;
   /// For each pair about which the subject is asked, it claims a bound on the distance at which it may
-  /// falsely report the pair. This is the largest of these bounds, in the scene's unit of length, or infinity
-  /// if the subject claims no bound.
+  /// falsely report the pair. `claimed` is the largest of these bounds, in the scene's unit of length, or
+  /// infinity if the subject claims no bound.
   double claimed = 0;
   double ns_per_query = 0;  ///< measured over the first 20,000 asked pairs
 };

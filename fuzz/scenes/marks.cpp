@@ -17,7 +17,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t most_primitives = 8000;  // limit for primitives with a mark, and for those without
+constexpr std::size_t most_primitives = 8000;  // limit of marked primitives, and also of unmarked ones
 constexpr std::uint32_t collides = 1, tangled = 2;
 constexpr std::size_t most_subjects = 15;  // bits of a mark: 2 + 2 * 15
 constexpr std::uint32_t falsely_reported_by(std::size_t subject) { return 4U << (2 * subject); }

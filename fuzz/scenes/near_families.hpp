@@ -52,10 +52,10 @@ class PairSample {
 /// contact, and `v-near-within` the vv and ve queries with separations. A family without queries is left out.
 std::vector<Family> near_families(std::span<const Query> queries);
 
-/// The family `mesh`, made like near_families() from the pairs whose swept boxes meet in a step. At most
-/// `most` pairs of each kind are kept; the choice depends only on the scene. If all pairs are of one kind,
-/// only queries of that kind are asked. Throws Error if there is no pair, and Stopped if the stop is due
-/// before all pairs are known.
+/// The family `mesh`. It draws pairs whose swept boxes meet in a step of the scene, and varies them as
+/// near_families() varies queries. At most `most` pairs of each kind are kept; the choice depends only on the
+/// scene. If all pairs are of one kind, only queries of that kind are asked. Throws Error if there is no
+/// pair, and Stopped if the stop is due before all pairs are known.
 Family mesh_family(const Scene& scene, const Stop& stop = Stop::never(), std::size_t most = 1 << 15);
 
 }  // namespace nearmiss

@@ -36,7 +36,7 @@ class FateTeller {
     if (found_.size() == batch_pairs) tell_fates();
   }
 
-  /// The total time for deciding what to do with the pairs, and for `ask`.
+  /// The total time that it took to decide what to do with the pairs, and to pass them on.
   [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
   [[nodiscard]] Funnel finish() {
     tell_fates();

@@ -12,7 +12,7 @@
 
 namespace nearmiss {
 
-/// Which pairs are left out.
+/// Which pairs a plan leaves out, so that no subject is asked about them.
 enum class LeaveOut : std::uint8_t {
   nothing,  ///< subjects are asked about all pairs without a common vertex
   boxes,    ///< pairs whose swept boxes do not meet
@@ -22,8 +22,8 @@ enum class LeaveOut : std::uint8_t {
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// Decides under LeaveOut::all whether subjects are asked about a pair. The pair's swept boxes must meet, or
-/// be at most the separation apart. If no subject is asked, the second value says whether the pair collides.
+/// Decides under LeaveOut::all what happens to a pair whose swept boxes meet, or are at most the separation
+/// apart. If no subject is asked about the pair, the second value of the result says whether it collides.
 std::pair<PairFate, bool> fate(const Query& query);
 
 /// Pairs of one kind about which subjects are asked.
@@ -36,8 +36,8 @@ struct AskedPairs {
 /// Receives one or more pairs at a time.
 using AskSink = std::function<void(const AskedPairs&)>;
 
-/// Receives a pair whose boxes meet but that the plan decides without a subject, and whether the pair
-/// collides.
+/// Receives a pair whose boxes meet, but that the plan decides without a subject. `collides` is the plan's
+/// decision.
 using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate, bool collides)>;
 
 /// Divides the pairs of a step into parts, which any thread may process.
@@ -48,8 +48,8 @@ class Plan {
   Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over);
   Plan(MovingMesh&& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over) = delete;
 
-  /// Goes on to `mesh`, another step of the same scene. Making a new Plan would give the same result, but
-  /// takes longer. After an exception, the object must not be used any more.
+  /// Goes on to `mesh`, another step of the same scene. A new Plan of `mesh` would be equal, but takes longer
+  /// to make. After an exception, the object must not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
@@ -61,16 +61,16 @@ class Plan {
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
                  const IsOver& is_over) const;
 
-  /// Counts the pairs whose boxes do not meet, which are in no part. Also has the time to make the parts.
-  /// `parts` is the sum of what follow() returned for all parts.
+  /// Returns what the parts lack: the number of pairs whose boxes do not meet, and the time that it took to
+  /// make the parts. `parts` is the sum of what follow() returned for all parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:
   const MovingMesh* mesh_;
   LeaveOut leave_out_;
   std::map<Kind, CandidateFinder> finders_;          ///< empty for LeaveOut::nothing
-  std::map<Kind, std::uint64_t> making_ns_;          ///< the time to make or move the finders
-  std::vector<std::pair<Kind, std::size_t>> parts_;  ///< parts of finders, or else rows of all pairs
+  std::map<Kind, std::uint64_t> making_ns_;          ///< the time that it took to make or move a finder
+  std::vector<std::pair<Kind, std::size_t>> parts_;  ///< parts of finders; without finders, rows of pairs
 };
 
 /// Follows all parts of a plan, one after the other.

@@ -23,7 +23,7 @@ struct Scene {
   [[nodiscard]] std::size_t steps() const { return frames - 1; }
 };
 
-/// The scene with a separation h > 0, under the name NAME~H.
+/// The same scene with a separation h > 0, named NAME~H.
 Scene with_separation(Scene scene, double separation);
 
 MovingMesh moving_mesh(const Scene& scene, std::size_t step);

@@ -39,7 +39,7 @@ class SceneTrial {
  private:
   using IsAsked = std::function<bool(const Candidate&)>;
 
-  /// The results of some parts of a step, except the statistics of their trials.
+  /// The results of some parts of a step, without the statistics, which go to `trials_`.
   struct PartResult {
     Funnels funnels = {};
     Marks marks = {};
@@ -57,7 +57,7 @@ class SceneTrial {
   [[nodiscard]] PartResult hold_part(std::size_t step, std::size_t number, const AskBatch& ask,
                                      const IsAsked& is_asked) const;
 
-  /// Keeps the picture of a step if the step ranks among the five highest so far.
+  /// Keeps the picture of a step if the step is among the five that rank highest so far.
   void add_picture(std::size_t step, const MovingMesh& mesh, const Marks& marks);
 
   /// Throws Stopped when the trial's stop is due.

@@ -23,7 +23,7 @@ struct Verification {
   void merge(const Verification& other);
 };
 
-/// Asks the subjects and the oracle about every pair of a step that the plan leaves out. If the boxes of a
+/// Asks the subjects and the oracle about every pair that the plan of a step leaves out. If the boxes of a
 /// pair do not meet, the oracle must find no collision; if the pair is at relative rest or in relative
 /// translation, the oracle must agree with the plan. The plan must find exactly the pairs whose boxes meet.
 /// `progress` receives the completed share, and returns whether to continue.

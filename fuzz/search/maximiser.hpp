@@ -35,14 +35,14 @@ class Maximiser {
         finest_step_(finest_step),
         objective_(std::move(objective)) {}
 
-  /// The best of search_evaluations points. Throws what the objective throws.
+  /// Tries at most search_evaluations points, and returns the best. Throws what the objective throws.
   SearchPoint run(const Draw& draw_start);
 
  private:
   [[nodiscard]] bool over() const;
   double show(const SearchPoint& point);
-  /// Optimises from the best point so far, with steps of a random size. With `beside`, starts from a point
-  /// near the best point.
+  /// Optimises from the best point so far or, with `beside`, from a point near it. The size of the first step
+  /// is random.
   void optimise(bool beside);
   /// Moves vertices of the best point so far. A step that improves the point is repeated, each time twice as
   /// long. The size of steps grows after an improvement, and shrinks after a step that does not improve the

@@ -69,8 +69,8 @@ double reach(const Subject& subject, const Query& query) {
 }
 
 /// The smallest size of primitives in a search. It is smaller than usual if reach() is small. For vv and ve
-/// queries, it is always the usual size, because reach() is a distance minus the separation h there, and may
-/// be small for every subject.
+/// queries, the size is always the usual one: reach() of such queries is a distance minus the separation h,
+/// and may be small for every subject.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   if (!is_of_meshes(kind)) return usually_smallest;
   const SearchPoint typical = draw_search_point(random, usually_smallest);
@@ -177,8 +177,8 @@ struct GivenTime {
   double time;
   EarliestTime& earliest;
 
-  /// The difference time - t*. It uses an enclosure of t* with the accuracy `rough_time`; if this does not
-  /// show which of the two times is earlier, it uses one with the accuracy `least`.
+  /// The difference time - t*, from an enclosure of t* with the accuracy `rough_time`. If that enclosure
+  /// contains `time`, t* is enclosed with the accuracy `least` instead.
   [[nodiscard]] double difference() const {
     Enclosure known = earliest.enclosure(rough_time);
     if (known.lo <= time && time <= known.hi) known = earliest.enclosure(least);

@@ -14,7 +14,7 @@ namespace nearmiss {
 /// To return one query, a search asks the subject about at most this many queries.
 inline constexpr int search_evaluations = 2000;
 
-/// The aims of directed searches. A search gives the best query that it found to the family of its aim.
+/// The aims of directed searches. Each aim has a family, whose queries are the best ones that searches found.
 enum class SearchFor {
   /// "search-miss-NAME": a collision that the subject misses; if the search found none, the collision that
   /// came nearest to being missed.
@@ -28,7 +28,7 @@ enum class SearchFor {
   /// query with the largest time - t*; otherwise, the query with the smallest (t* - time) / t*. The search
   /// skips misses, and up to 20 queries over the time limit.
   late,
-  early,  ///< "search-early-NAME": as `late`, but the collision with the largest t* - time
+  early,  ///< "search-early-NAME": like `late`, but finds the collision with the largest t* - time
 };
 
 /// The family of a directed search against one subject.

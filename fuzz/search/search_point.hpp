@@ -11,8 +11,8 @@ namespace nearmiss {
 /// How far each vertex is moved, in the order of Query::x.
 using Displacements = std::array<double, 24>;
 
-/// A contact, a gap between the primitives, and displacements that are added to the vertices at the end. The
-/// contact's Contact::base is at rest at the origin.
+/// A contact, a gap between the primitives, and displacements that are added last, to the vertices'
+/// positions. The contact's Contact::base is at rest at the origin.
 struct SearchPoint {
   Path q, r;
   Vector3<double> w;      ///< velocity of the first primitive's point of contact
@@ -31,7 +31,7 @@ struct SearchPoint {
 /// The lower end of the usual range of sizes and speeds.
 inline constexpr double usually_smallest = 1e-5;
 
-/// A log-uniform number from lo to hi, which does not depend on the C library.
+/// A log-uniform number from lo to hi, the same with every C library.
 double search_log_uniform(Random& random, double lo, double hi);
 
 /// Draws primitives with sizes and speeds from `smallest` to 1, without a gap. Some primitives are thin, move

@@ -15,10 +15,10 @@ namespace nearmiss {
 /// vertices opposite an edge, and the two neighbours of a point of a hair. All springs are at rest in the
 /// given mesh.
 ///
-/// A step uses the backward Euler method. Its equations are solved by alternating between the directions of
-/// all springs and the positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of
-/// mass-spring systems"). The equations for the positions alone have a constant, positive definite matrix. A
-/// stiffer cloth converges more slowly.
+/// A step uses the backward Euler method. Its equations are solved alternately for the directions of all
+/// springs and for the positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of
+/// mass-spring systems"). The matrix of the equations for the positions is constant and positive definite.
+/// The alternation converges more slowly for stiffer cloth.
 class Cloth {
  public:
   /// `held` says for each point whether the caller moves it. `step` is in seconds. Throws Error if the

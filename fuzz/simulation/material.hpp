@@ -17,7 +17,7 @@ struct Material {
   double bending = 0.05;   ///< of the springs across edges, as a part of `stiffness`
   double density = 0.2;    ///< in kg/m²; a point has the mass of a square of side `edge`
   double friction = 0.3;   ///< Coulomb's coefficient
-  double thickness = 0.1;  ///< as a part of `edge`; nearer primitives repel each other
+  double thickness = 0.1;  ///< as a part of `edge`; primitives that are nearer than this repel each other
   double gravity = 9.81;   ///< downwards along z, in m/s²
   double drag = 0.5;       ///< the part of its velocity that a point loses in a second
 

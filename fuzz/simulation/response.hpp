@@ -18,7 +18,7 @@ class Response {
 
   /// Repels a pair that is nearer than the thickness at the start of the step (§7.2 of the paper). Stops the
   /// approach of the pair by an inelastic impulse, and moves the primitives apart by a tenth of (thickness -
-  /// distance). Leaves primitives that touch as they are, since no direction separates them.
+  /// distance). Does not change primitives that touch, since no direction separates them.
   void repel(const Candidate& pair, const PointVectors& start, PointVectors& end) const;
 
   /// Ends the approach of a pair that collides at a time in [0, 1], by friction and an inelastic impulse

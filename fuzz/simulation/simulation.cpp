@@ -76,7 +76,7 @@ void Simulation::repel(const Stop& stop) {
 
 void Simulation::resolve(const AskCcd& ask, SimulatedStep& done) {
   const auto at = [](int point) { return static_cast<std::size_t>(point); };
-  Mesh zones{.points = motion_.start, .triangles = {}, .lines = {}};  ///< lines join what moves rigidly
+  Mesh zones{.points = motion_.start, .triangles = {}, .lines = {}};  ///< its lines join the points of a zone
   std::vector<bool> moved(scene_.held.size(), true);
   const auto asked = [&](const Candidate& pair) {
     const auto& all = pair.vertices;

@@ -69,7 +69,7 @@ SimulationOptions parse_simulation_name(std::string_view name) {
 
 namespace {
 
-constexpr std::size_t most_pairs = 1 << 17;  ///< pairs of each kind in the sample
+constexpr std::size_t most_pairs = 1 << 17;  ///< limit on the pairs of each kind in the sample
 
 /// Runs a simulation with the oracle as its CCD. Returns a sample of the pairs about which the CCD is asked.
 PairSample simulate(Simulation simulation, const Stop& stop) {
@@ -100,7 +100,7 @@ Family simulation_family(std::string_view name, const Stop& stop) {
   Family family{.name = std::string(name),
                 .about = "pairs that a simulation asks its CCD about",
                 .make = [pairs](Random& random, Kind kind) { return drawn(random, *pairs, kind); }};
-  if (!pairs->contains(Kind::vertex_triangle)) {  // in a simulation of lines
+  if (!pairs->contains(Kind::vertex_triangle)) {  // lines have no triangles
     family.kinds.fill(Kind::edge_edge);
     family.only = Kind::edge_edge;
   }

@@ -17,9 +17,9 @@ struct Piercing {
   auto operator<=>(const Piercing&) const = default;
 };
 
-/// The pairs of an edge and a triangle such that the edge passes through the inside of the triangle at the
-/// end of the motion, in ascending order. Touching does not count. Exact signs of determinants decide whether
-/// an edge passes through.
+/// Returns, in ascending order, the pairs of an edge and a triangle for which the edge passes through the
+/// inside of the triangle at the end of the motion. Touching does not count. Exact signs of determinants
+/// decide whether an edge passes through.
 std::vector<Piercing> find_tangled(const MovingMesh& mesh);
 
 }  // namespace nearmiss

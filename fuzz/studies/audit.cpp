@@ -130,7 +130,7 @@ std::vector<RoundingConstant> rounding_consequences() {
        4 * proven::inside_ee_far, beyond},
       {"distance bound", "4.4.1", "B eps^1/4", 41, std::sqrt(34.0 * 34 + 522)},
       // A weight is linear in the relative position p, so it changes by at most ‖N‖ ‖edge‖ √3 B h in a time
-      // interval of length h (which is no separation). Here, ‖N‖ <= 3B² and ‖edge‖ <= √3 B.
+      // interval whose length is h (not the separation). Here, ‖N‖ <= 3B² and ‖edge‖ <= √3 B.
       {"VE culling: spread of a weight", "5", "B^4 h", 9, 3 * 3},
       {"critical points", "node_error, ccd/wang/ve_culling.hpp", b3, node_error, 3 * 18, none,
        "derived in ccd/wang/cubic.hpp"},

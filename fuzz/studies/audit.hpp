@@ -28,7 +28,7 @@ struct RoundingConstant {
   double proven = none;
   std::string_view note{};
 
-  /// Whether neither the theorem nor a proof shows that the constant is large enough.
+  /// Returns true if neither the theorem nor a proof shows that the constant is large enough.
   [[nodiscard]] bool is_too_small() const {
     return quoted > 0 && !(derived <= quoted) && !(proven <= quoted);
   }
@@ -53,7 +53,7 @@ struct ToleranceRow {
   double tight_bound = 0;      ///< the distance bound of the smallest tolerances
   std::string_view
       paper_breaks;  ///< the first constraint that the closed forms violate; empty if there is none
-  std::string_view printed_breaks;  ///< as paper_breaks, with the errors that the paper states
+  std::string_view printed_breaks;  ///< like paper_breaks, but for the rounding errors that the paper states
 };
 
 /// A row for each of 16 precisions, from 11 to 256 bits.

@@ -15,7 +15,7 @@ namespace nearmiss {
 /// The first failure that a campaign found, in the order of its cases.
 struct FirstFailure {
   Finding finding;
-  double seconds = 0;  ///< time until the failure, interpolated between two results by the number of cases
+  double seconds = 0;  ///< time until the failure, interpolated by cases between two results of the campaign
   std::uint64_t cases = 0;  ///< number of cases up to and including the failure
 };
 

@@ -12,7 +12,8 @@ struct RandomPairs {
   std::uint64_t queries = 0;
   std::uint64_t boxes_meet = 0;   ///< pairs whose swept boxes meet
   std::uint64_t not_culled = 0;   ///< pairs that no plane separates
-  std::uint64_t vertex_edge = 0;  ///< vertex-edge tests after all earlier tests, without §5's culling
+  std::uint64_t vertex_edge = 0;  ///< vertex-edge tests of pairs that no earlier test decides, including
+                                  ///< the tests that §5's culling would omit
   std::uint64_t candidates = 0;   ///< all times in [0, 1] in the sets T of these tests (Algorithm 2)
   double bounds = 0;              ///< sum over the queries of B / (longest edge at t = 0)
 
@@ -21,9 +22,9 @@ struct RandomPairs {
   }
 };
 
-/// Counts the first `queries` queries of this kind in the family `uniform`, after multiplying all velocities
-/// by `speed`. Vertices start in a unit cube, and have velocities in ±speed along each axis. Throws Stopped
-/// when `stop` is due.
+/// Counts how far the first `queries` queries of this kind in the family `uniform` get, with all velocities
+/// multiplied by `speed`. Vertices start in a unit cube, and have velocities in ±speed along each axis.
+/// Throws Stopped when `stop` is due.
 RandomPairs count_random_pairs(Kind kind, double speed, std::uint64_t queries, std::uint64_t seed,
                                const Stop& stop);
 

@@ -98,7 +98,7 @@ Gauge gauge_of(std::string_view name, bool among, const Stop& stop) {
                           fmt::join(tightness_names(among), ", ")));
 }
 
-/// The extreme value among a block of queries of a family.
+/// The most extreme value that the gauge reads in `count` queries of a family, from query number `first` on.
 Extreme read_block(const Gauge& gauge, const Family& family, std::uint64_t seed, std::uint64_t first,
                    std::uint64_t count, const Stop& stop) {
   Extreme sum = gauge.nothing;
@@ -139,7 +139,7 @@ void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, con
       std::vector<Extreme> parts(wave, gauge.nothing);
       try {
         in_parallel(plan.jobs, wave, [&](std::size_t i) {
-          const std::uint64_t number = round * (wave / 2) + i / 2;  // of the block in its source
+          const std::uint64_t number = round * (wave / 2) + i / 2;  // counts the blocks of either source
           const std::uint64_t families = plan.families.size();
           parts[i] = i % 2 == 0 ? read_block(gauge, gauge.search, plan.seed, 4 * number, 4, ending)
                                 : read_block(gauge, plan.families[number % families], plan.seed,

@@ -31,11 +31,11 @@ std::vector<std::string> tightness_names(bool among_vertices = false);
 using TightnessSink = std::function<void(const Extreme&, bool done)>;
 
 /// Measures each tolerance and group of tests. For a tolerance, half of the queries come from the plan's
-/// families. Directed search finds the other half: collisions that need the tolerance to be nearly as large
-/// as it is. Each collision gives a factor: if the tolerance is multiplied by less than this factor (by more,
-/// if the tolerance excludes degenerate primitives), the subject misses the collision. For a group of tests,
-/// wang runs without the groups that accept pairs at larger distances, and the distances of its false
-/// positives are measured. Throws Error for an unknown name.
+/// families. Directed search gives the other half: it looks for collisions that the subject would miss if the
+/// tolerance were slightly tighter. Each collision gives a factor: if the tolerance is multiplied by less
+/// than this factor (by more, if the tolerance excludes degenerate primitives), the subject misses the
+/// collision. For a group of tests, wang runs without the groups that accept pairs at larger distances, and
+/// the distances of its false positives are measured. Throws Error for an unknown name.
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

@@ -45,9 +45,8 @@ struct DefectiveTolerances {
   Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
   const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if any
 
-  /// These tolerances, but with the changed tolerance loosened by the factor s. If no tolerance is changed,
-  /// those that accept more pairs when they are larger are loosened: lengths by s, squares of lengths by s²,
-  /// and so on.
+  /// These tolerances, but with `changed` loosened by the factor s. If `changed` is null, all tolerances that
+  /// accept more pairs when they are larger are loosened: lengths by s, squares of lengths by s², and so on.
   [[nodiscard]] DefectiveTolerances loosened(double s) const {
     DefectiveTolerances loose = *this;
     if (changed != nullptr) {
@@ -108,7 +107,7 @@ struct Change {
   Sound sound = Sound::wang;
   int edit = 0;  ///< the number of the edit in edit_table, from 1; 0: none
   DefectiveTolerances tolerances = {};
-  bool in_float = false;  ///< whether the subject computes in float; of wang-time, only the time
+  bool in_float = false;  ///< whether the subject computes in float; in wang-time, only the time is in float
 };
 
 template <Kind kind>

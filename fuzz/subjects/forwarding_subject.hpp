@@ -11,8 +11,8 @@
 namespace nearmiss {
 
 /// Passes all questions on to another subject, which must outlive this object. To change how that subject is
-/// asked, a derived class overrides decide() for batches, decide_timed() and time_each(). A single query also
-/// goes to decide() for batches, but decide_timed() and time_each() do not call decide().
+/// asked, a derived class overrides three functions, none of which calls another: decide() for batches, which
+/// also decides single queries; decide_timed(); and time_each().
 class ForwardingSubject : public BatchSubject {
  public:
   ForwardingSubject(std::string name, const Subject& to) : BatchSubject(std::move(name)), to_(to) {}

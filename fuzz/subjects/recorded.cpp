@@ -24,7 +24,7 @@ bool is_exact_sum(double a, double b) {
   return (a - (sum - of_b)) + (b - of_b) == 0;
 }
 
-/// Whether Recorded::asked() rounds nothing.
+/// Whether Recorded::asked() computes all positions exactly.
 bool is_exact(const Recorded& each) {
   if (each.tmax == 1) return true;
   constexpr std::size_t half = 12;
@@ -39,7 +39,7 @@ bool is_exact(const Recorded& each) {
   return true;
 }
 
-/// Whether the query that ends at tmax has the same decision with exact positions and with rounded ones.
+/// Whether rounding the positions at tmax leaves the decision of the query that ends at tmax unchanged.
 bool is_same_decision(const Recorded& each) {
   auto earliest = earliest_time(each.query);
   return earliest_time(each.asked()).has_value() == (earliest && earliest->enclosure().hi <= each.tmax);
@@ -127,7 +127,7 @@ std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers) {
     Answers known;
     std::vector<RecordedAnswer> answers;
   };
-  std::array<std::vector<Made>, 2> made;  // the passes of answers in double, and in float
+  std::array<std::vector<Made>, 2> made;  // first those of answers in double, then in float
   for (RecordedAnswer& each : answers) {
     auto& passes = made[each.in_float ? 1 : 0];
     const Verdict verdict = verdict_of(info, each);

@@ -22,15 +22,15 @@ struct RecordedAnswer {
   std::uint64_t number;  ///< the number of the record
   Query query;
   int answer;     ///< as in nearmiss_subject.h
-  double time;    ///< in the unit of the query's step; NaN if none
-  bool in_float;  ///< whether the recorded program computes the step to that time in float
+  double time;    ///< 1 is the end of the query's step; NaN if there is no time
+  bool in_float;  ///< whether the recorded program computes the positions at `time` in float
 };
 
-/// Counts of records that are left out.
+/// The numbers of records that are left out.
 struct LeftOut {
   UnusedRecords unused;
-  std::uint64_t rounded = 0;  ///< tmax is not 1, and the positions at tmax, rounded to doubles, may change
-                              ///< the decision
+  std::uint64_t rounded = 0;  ///< records with tmax != 1 for which rounding the positions at tmax to doubles
+                              ///< may change the decision
 };
 
 /// Passes to `sink`, in order, those records of a file that can be judged. The CCD was asked about the times

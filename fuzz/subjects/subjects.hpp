@@ -33,7 +33,8 @@ std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});
 
-/// Whether a name belongs to a built-in subject, with or without options and a bound, or to a published CCD.
+/// Whether a name belongs to a built-in subject or to a published CCD. Options and a bound after a built-in
+/// name are ignored.
 bool is_built_in_name(std::string_view name);
 
 /// Renames plug-ins with equal names, such as versions of one CCD, and plug-ins with a built-in name. Each of

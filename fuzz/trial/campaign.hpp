@@ -19,9 +19,9 @@ namespace nearmiss {
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
-  std::uint64_t cases = 0;  ///< of all families, in proportion to `block_cases`; 0 for a campaign without end
-  std::uint64_t first =
-      0;  ///< in a campaign without end: the number of the shard's cases to decide; 0 is no limit
+  std::uint64_t cases = 0;  ///< the number of cases, which all families share in proportion to `block_cases`;
+                            ///< 0 for a campaign without end
+  std::uint64_t first = 0;  ///< in a campaign without end: after how many cases this shard stops; 0 if never
   Comparison comparison;
   bool shrink = true;  ///< whether kept findings are shrunk
   int jobs = 1;

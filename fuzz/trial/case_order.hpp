@@ -44,7 +44,7 @@ class CasesOfShard {
   /// Begins after the first `done` cases.
   CasesOfShard(const CampaignPlan& plan, std::uint64_t done);
 
-  /// The next cases of one block, at most as many as `pace` chooses; nothing when all cases are done.
+  /// The next cases, all in one block; at most as many as `pace` chooses. Nothing when all cases are done.
   std::optional<CaseBlock> next(const Pace& pace);
 
  private:

@@ -18,8 +18,8 @@ BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ :
 namespace {
 
 /// The difference between a time and t*, the exact earliest time. `magnitude` is an upper bound of the
-/// difference's exact magnitude, and in the same bin of a Histogram. Outside the first bin, it has a relative
-/// accuracy of 1/1000. `sign` is 0 if the time certainly is t*.
+/// difference's exact magnitude. Both are in the same bin of a Histogram; outside the first bin, the bound is
+/// accurate to 1/1000. `sign` is 0 if the time certainly is t*.
 struct TimeDifference {
   double magnitude;
   int sign;
@@ -101,7 +101,7 @@ std::optional<Failure> Judge::failure(const Query& query) const {
 }
 
 std::optional<Failure> Judge::failure(const Query& query, const Verdict& verdict) const {
-  // If the subject reports a collision, only a claimed bound or a promised time can be wrong.
+  // A reported collision is a failure only if a claimed bound or a promised time is wrong.
   if (verdict.hit && verdict.fault == Fault::none && !subject_.claims_bound() &&
       !is_lower_bound(subject_.time_sort()))
     return std::nullopt;

@@ -34,12 +34,12 @@ class Judge {
 
   /// Compares an answer with the truth about the query. If the subject rounds coordinates, `truth` must be
   /// about the rounded query. If the smallest distance is exactly the separation h > 0, any answer is right,
-  /// and the query counts as a collision if the answer is one. A subject that claims bounds must give a
-  /// number >= 0 for a false positive; anything else is a fault. The answer "cannot tell" claims nothing
-  /// about the distance. For a false positive, Outcome::ratio is the smallest distance, minus h, in the unit
-  /// of ask_unit(). It is accurate to 1/1000 if a finding stores it, or if it is at least `least_kept`
-  /// (Known). The ratio is 0 if the unit is infinite, since no distance is larger. `known` is the answer of
-  /// ask_unit(), if the caller has it already.
+  /// and the query counts as a collision if the subject reports a collision. A subject that claims bounds
+  /// must give a number >= 0 for a false positive; anything else is a fault. The answer "cannot tell" claims
+  /// nothing about the distance. For a false positive, Outcome::ratio is the smallest distance, minus h, in
+  /// the unit of ask_unit(). It is accurate to 1/1000 if a finding stores it, or if it is at least
+  /// `least_kept` (Known). If the unit is infinite, the ratio is 0. `known` is the answer of ask_unit(), if
+  /// the caller has it already.
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0,
                               const std::optional<BoundAnswer>& known = {}) const;
 
@@ -62,7 +62,7 @@ class Judge {
   [[nodiscard]] std::optional<TimeError> time_error(const Verdict& verdict, Truth& truth) const;
 
   const Subject& subject_;
-  std::unique_ptr<Subject> wang_;  // gives the unit if the subject claims no bound
+  std::unique_ptr<Subject> wang_;  // null if the subject claims a bound, which is then the unit
 };
 
 /// The failure that an outcome shows (reports/statistics/failure.hpp). Returns nothing if the outcome shows

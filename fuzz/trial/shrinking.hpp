@@ -90,8 +90,8 @@ class Shrinking {
   bool ends_ = false;
 
   const Clock::time_point start_ = Clock::now();
-  Clock::time_point busy_since_ = start_;  // of the only thread, while queries are being asked
-  Clock::duration busy_{};                 // before busy_since_
+  Clock::time_point busy_since_ = start_;  // when the shrinking thread's present work began
+  Clock::duration busy_{};                 // the time that this thread worked before busy_since_
   std::vector<std::thread> threads_;
 };
 

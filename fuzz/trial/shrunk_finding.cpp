@@ -231,7 +231,8 @@ class FindingShrinker::OfSubject {
     return *known;
   }
 
-  /// Replaces a value that belongs to the original query by the value for the shrunk query, if there is one.
+  /// Replaces a value for the original query by the value for the shrunk query, unless the latter is missing
+  /// (NaN or "").
   static void set(double& number, double of_shrunk) {
     if (!std::isnan(of_shrunk)) number = of_shrunk;
   }

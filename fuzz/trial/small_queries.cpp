@@ -190,7 +190,7 @@ const std::vector<SmallQuery>& small_queries(Kind kind, bool apart) {
 
 SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,
                              const std::function<void()>& check) {
-  constexpr std::size_t largest_batch = 64;  // batches grow, because a query may end the process
+  constexpr std::size_t largest_batch = 64;  // first batches are smaller: a query may end the process
   const Judge judge(subject);
   const std::span list(small_queries(kind, apart));
   std::size_t first = 0;

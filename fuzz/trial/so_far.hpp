@@ -1,5 +1,5 @@
-// What earlier cases decide for later cases: which subjects are set aside, and which distances of false
-// positives need not be precise.
+// Effects of earlier cases on later cases: subjects are set aside, and some distances of false positives need
+// not be precise.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +24,9 @@ inline bool is_set_aside(const Counts& counts) { return counts.without_answer(Fa
 struct Known {
   std::uint64_t slow = 0;  ///< the number of queries over the time limit
 
-  /// A false positive is kept as one of the farthest if its distance, in the unit of Judge::ask_unit(), is at
-  /// least this (Truth::Distance::ratio). The distance of any other false positive need not be precise.
+  /// A false positive is kept as one of the farthest only if its ratio (Truth::Distance::ratio, in the unit
+  /// of Judge::ask_unit()) is at least this number. The ratio of any other false positive need not be
+  /// precise.
   double least_kept = 0;
 
   [[nodiscard]] bool is_set_aside() const { return slow >= most_slow; }
@@ -58,7 +59,7 @@ class SoFar {
  private:
   struct Sum {
     std::uint64_t slow = 0;
-    std::vector<double> farthest = {};  ///< the largest ratios, descending, at most far_cases
+    std::vector<double> farthest = {};  ///< the far_cases largest ratios, in descending order
   };
 
   mutable std::mutex mutex_;

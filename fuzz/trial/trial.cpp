@@ -303,16 +303,16 @@ class Judging {
   const Subjects& subjects_;
   const Batch& batch_;
   const Comparison& comparison_;
-  std::vector<Known> known_;  // by subject, before the next query
+  std::vector<Known> known_;  // by subject: what is known before the next query
   const Verdicts& answers_;   // by subject and query
   TrialResult result_;
-  std::vector<Counts*> counts_;  // by subject, in the result; null if it does not decide this kind
+  std::vector<Counts*> counts_;  // by subject, in `result_`; null if it cannot be asked
   std::vector<Judge> judges_;    // by subject
   std::vector<Judged> judged_;   // by subject
   std::vector<std::vector<std::optional<BoundAnswer>>> bounds_;  // by subject
   std::vector<Decision> decisions_;                              // by query
-  std::vector<bool> near_;                                       // by query; empty if not asked for
-  std::vector<std::string> factors_;  // of the query that is judged, if the batch has factors
+  std::vector<bool> near_;                                       // by query: near_bounds(), or empty
+  std::vector<std::string> factors_;  // the values with which the judged query was made, or empty
   VersionComparison versions_;
 };
 

@@ -61,7 +61,8 @@ struct Batch {
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
-  /// Earlier findings that have been shrunk since they were passed on, by number among all findings.
+  /// Findings that were passed on earlier, and have been shrunk since. The key is the number of the finding
+  /// among all findings.
   std::map<std::size_t, Finding> shrunk = {};
 
   void merge(TrialResult&& other);

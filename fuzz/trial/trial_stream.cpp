@@ -6,7 +6,7 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t queries_of_a_thread = 4 * Pace::usual;  // so that no thread waits long for the others
+constexpr std::size_t queries_of_a_thread = 4 * Pace::usual;  // so few that no thread waits long for others
 
 }  // namespace
 

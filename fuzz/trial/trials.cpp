@@ -52,8 +52,8 @@ std::size_t largest_batch_of(const Subjects& subjects) {
   return std::min(largest, most);
 }
 
-/// The largest number of cases in a slice: `usual`, or more if some subject is a plug-in. Then calls of the
-/// plug-in's process take little of the time.
+/// The largest number of cases in a slice: `usual`, or more if some subject is a plug-in, so that calls of
+/// its process take little of the time.
 std::size_t largest_slice(const Subjects& subjects, std::size_t usual) {
   const auto is_plugin = [](const auto& each) { return plugin_info(*each) != nullptr; };
   return std::ranges::any_of(subjects, is_plugin) ? std::max(usual, 4 * Pace::usual) : usual;

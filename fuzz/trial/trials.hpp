@@ -20,8 +20,8 @@ using AskBatch = std::function<void(const Batch&)>;
 
 /// A piece of work: one thread asks about some batches, one after the other.
 struct Work {
-  /// Calls ask(batch) for each batch; may throw Stopped. If earlier work has set a subject aside (so_far.hpp)
-  /// meanwhile, `hold` is called again, and must start anew.
+  /// Calls ask(batch) for each batch of the piece; may throw Stopped. If an earlier piece sets a subject
+  /// aside (so_far.hpp) meanwhile, `hold` is called again, and must begin with the first batch.
   std::function<void(const AskBatch& ask)> hold;
   /// Called after `hold`, in the order of the pieces of work. Returns whether the result counts. `complete`
   /// is false if a stop interrupted the piece.

@@ -50,8 +50,8 @@ class Truth {
 
   /// The smallest distance in a false positive, minus the separation, divided by a unit of length.
   struct Distance {
-    double ratio;  ///< an upper bound in the right bin of a Histogram
-    bool exceeds;  ///< whether the ratio is above 1, decided exactly
+    double ratio;  ///< an upper bound of the quotient, in the same bin of a Histogram
+    bool exceeds;  ///< whether the quotient is above 1, decided exactly
   };
   Distance distance(double unit);
   /// Returns Distance::exceeds for this unit, without computing the ratio.

@@ -33,7 +33,7 @@ class VersionComparison {
   /// of the earlier version (`broken_since`). The next query then becomes the present one.
   void finish_query(std::vector<Finding>& findings);
 
-  /// Adds the counters of all queries to a table. The queries are of this kind and family. Versions without a
+  /// Adds the counters of all queries, which are of this kind and family, to a table. Versions without a
   /// common query get counters of 0.
   void add_to(VersionTable& table, Kind kind, const std::string& family) const;
 
@@ -47,7 +47,7 @@ class VersionComparison {
 
   const Subjects& subjects_;
   std::vector<std::optional<std::size_t>> before_;  // by subject
-  bool has_versions_;                               // whether any subject has a version before it
+  bool has_versions_;                               // whether any subject has an earlier version
   std::vector<Answer> answers_;                     // the answers to the present query, by subject
   std::vector<VersionCounts> counts_;               // by subject
 };

@@ -23,7 +23,7 @@ struct Answer {
   /// Whether the method knows anything about the query.
   [[nodiscard]] bool is_answer() const { return collision || at_most || on_boundary || odd; }
 
-  std::size_t detail = 0;  ///< feedback for a fuzzer: the bit length of a certificate's size, below 32
+  std::size_t detail = 0;  ///< for a fuzzer: how many bits the length of a certificate has, below 32
 };
 
 /// What a method promises to know.

@@ -13,7 +13,7 @@ namespace nearmiss::certified {
 /// Rounding changes a result x by at most roundoff<Real> |x|, and underflow changes a product by at most
 /// product_underflow<Real> times `smallest`. Two numbers in the formulas below may be too small: |x|, if it
 /// is taken from the upper half of a double word, and the bound itself, which has at most six roundings. In
-/// all, a bound is too small by at most a relative 7 · 2^-53, plus three times the smallest double. The
+/// all, a bound is too small by at most 7 · 2^-53 times its value, plus three times the smallest double. The
 /// margins in `growth` and `underflow_of_product` cover this.
 template <class Real>
 struct Ball {

@@ -135,9 +135,9 @@ struct Bernstein {
     return common_sign(std::array<double, 1>{at(t)}, error_near(h));
   }
 
-  /// If the magnitude of the computed value at t exceeds this result, the sign on [t - h, t + h] is certain.
-  /// The ends of this interval are in [0, 1], and may have been rounded by at most `end_rounding`. The
-  /// difference of two exact coefficients exceeds that of the computed ones by at most 2 `error`;
+  /// A bound for the computed value at t: if its magnitude exceeds the bound, the sign on [t - h, t + h] is
+  /// certain. The ends of this interval are in [0, 1], and may have been rounded by at most `end_rounding`.
+  /// The difference of two exact coefficients exceeds that of the computed ones by at most 2 `error`;
   /// `slope_errors` and `spread_growth` have margins for the roundings here.
   [[nodiscard]] Bound<Real> error_near(const Bound<Real>& h) const {
     using std::abs;

@@ -39,7 +39,7 @@ inline std::optional<double> root_near_zero(const Powers<double>& F, double accu
   return t;
 }
 
-/// The extremum of F nearest to 0. If F has no extremum, the discriminant is taken as 0.
+/// The extremum of F nearest to 0. If F has no extremum, returns -c[1] / c[2].
 inline double extremum_near_zero(const Powers<double>& F) {
   const double discriminant = std::max(F.c[2] * F.c[2] - 3 * F.c[1] * F.c[3], 0.0);
   return -F.c[1] / (F.c[2] + std::copysign(std::sqrt(discriminant), F.c[2]));

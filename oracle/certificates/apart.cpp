@@ -288,7 +288,7 @@ class Separator {
 
   Gaps gaps_;
   std::map<std::array<std::size_t, 4>, FeatureNormal> normals_;
-  Normal* in_the_middle_ = nullptr;  ///< separates in the middle of the last part that find() tried
+  Normal* in_the_middle_ = nullptr;  ///< separates in the middle of the part that find() tried last, or null
   std::vector<Piece> pieces_;
   bool halves_only_;
   int tries_left_;

@@ -73,8 +73,9 @@ class Meeting {
     in_unit_.separation = std::ldexp(query.separation, -exponent);
   }
 
-  /// The proof that the distance is at most h at time t. If points near the closest ones are within h of each
-  /// other, the proof uses those points, because their weights need fewer digits.
+  /// The proof that the distance is at most h (if `is_strict_`, below h) at time t. If points near the
+  /// closest ones are within h of each other, the proof uses those points, because their weights need fewer
+  /// digits.
   [[nodiscard]] std::optional<std::string> at(const mpq_class& t) const {
     if (!is_in(t, span_)) return std::nullopt;
     const PositionsAt x(query_, t);
@@ -87,7 +88,7 @@ class Meeting {
     const ClosestWeights<mpq_class> closest(query_.kind, x.exact());
     if (!is_within(closest.squared_distance())) return std::nullopt;
     if (const auto weights = shortened(closest.weights(), {50, 200, 1000}, x)) return text_at(t, *weights);
-    if (auto text = text_at(t, closest.weights())) return text;  // no value if the text is too long
+    if (auto text = text_at(t, closest.weights())) return text;  // nothing if it is too long
     const auto weights = shortened(closest.weights(), {4000}, x);
     return weights ? text_at(t, *weights) : std::nullopt;
   }
@@ -136,8 +137,8 @@ class Meeting {
     return excess != 0 ? excess < 0 : is_within(squared_distance(query_.kind, x.exact(), weights));
   }
 
-  /// The weights, rounded to the first number of bits in `bits` for which the points are within h of each
-  /// other; nothing if none suffices.
+  /// Rounds the weights to each number of bits in `bits`, in order, until their points are within h of each
+  /// other, and returns the rounded weights; nothing if no number of bits suffices.
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> shortened(const WeightsOfPoints<Real>& weights,
                                                                     std::initializer_list<unsigned> bits,
@@ -184,7 +185,7 @@ class Meeting {
   Query query_;
   Span span_;
   bool is_strict_;
-  Query in_unit_;  ///< approximately the query in a unit in which the largest coordinate is between 1 and 2
+  Query in_unit_;  ///< the query, with rounding errors, in a unit that makes its largest coordinate 1 to 2
   mpq_class squared_h_;
 };
 
@@ -306,8 +307,8 @@ std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   }
 }
 
-/// The proof that the distance is below h right after a time. The search tries the multiples of 2^-bits next
-/// to this time, with more and more bits.
+/// The proof at a time right after `after`, the time at which the distance falls below h. The search tries
+/// the multiples of 2^-bits next to `after`, with more and more bits.
 std::optional<std::string> certify_below(Root after, const Meeting& meeting) {
   for (unsigned bits = 4; bits < most_bits; bits *= 2) {
     while (exact::power_of_half(bits) < after.hi() - after.lo()) after.refine();

@@ -23,7 +23,7 @@ RoughVector rough(const PolynomialVector& v) {
 
 /// A component of the difference of two vertices.
 RoughPolynomial moving(const DoubleWord& start, const DoubleWord& end) {
-  constexpr double underflow = 0x1p-1060;  // more than VertexDifferences loses by underflow
+  constexpr double underflow = 0x1p-1060;  // exceeds the underflow in VertexDifferences
   const auto ball = [](const DoubleWord& x) { return Ball<double>(x.hi, std::abs(x.lo) + underflow); };
   return {ball(start), ball(end) - ball(start)};
 }

@@ -69,7 +69,7 @@ class Normal {
   /// or, if `open`, [lo, hi).
   [[nodiscard]] bool separates(const Interval& interval, bool open);
   [[nodiscard]] bool separates_at(const Number& t);
-  /// The polynomial of a gap that makes separates() false; null if this gap has none.
+  /// The polynomial whose sign at this gap makes separates() false; null if there is none.
   [[nodiscard]] const Polynomial* obstacle(std::size_t gap, const Interval& interval, bool open);
 
   /// Whether, along this direction, the first vertex of the first primitive is behind the first vertex of the
@@ -109,8 +109,8 @@ class FeatureNormal {
  public:
   FeatureNormal(const PolynomialVector& n, Gaps& gaps) : gaps_(&gaps), exact_(n, gaps) {}
 
-  /// The versions of the normal or, if the normal is_behind_at(t), of its opposite. The version with the
-  /// smallest integers comes first, and the version that is not rounded comes last.
+  /// The versions of the normal; if it is_behind_at(t), those of its opposite. The version with the smallest
+  /// integers comes first, and the version that is not rounded comes last.
   [[nodiscard]] std::vector<Normal>& in_front_at(const Number& t);
 
  private:

@@ -86,9 +86,9 @@ void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t fr
   take_closer(best, features, p - weight * edge, weight, Real(0));
 }
 
-/// Considers the candidate of the interiors, the feet of the common normal N. Their weights a and b solve p =
-/// a q + b r + c N. Vertex-triangle: the candidate counts if a, b >= 0 and a + b <= 1. Edge-edge: the
-/// candidate counts if a and b are in [0, 1].
+/// Considers the feet of the common normal N as the closest points of the interiors. Their weights a and b
+/// solve p = a q + b r + c N. Vertex-triangle: the feet count if a, b >= 0 and a + b <= 1. Edge-edge: they
+/// count if a and b are in [0, 1].
 template <class Real>
 void consider_interiors(const VerticesAt<Real>& x, Candidate<Real>& best) {
   const Kind kind = x.differences().kind();

@@ -42,7 +42,7 @@ class Conversion {
 
  private:
   /// The distance divided by the unit. Applies `next` to the two results that may be rounded: the quotient of
-  /// the mantissas, and the ldexp if it underflows.
+  /// the mantissas and, because of underflow, the result of ldexp.
   template <class Next>
   [[nodiscard]] double divided(double distance, const Next& next) const {
     int exponent = 0;

@@ -34,7 +34,7 @@ struct Dual {
   }
 };
 
-/// Bounds the error of a number that VertexDifferences has scaled.
+/// A bound of the error of a number that VertexDifferences has scaled to its unit.
 constexpr double scaling_error = 0x1p-1072;
 
 // Converts a component of a difference of vertices, or h, to another type.
@@ -108,7 +108,7 @@ class At {
       if (!is_positive(along) || !is_positive(squared - along)) return false;
       n = squared * n - along * edge;
     }
-    // n points from the other feature to `vertex`, which may belong to either primitive.
+    // n points to `vertex` from the point `from` or the edge. `vertex` may belong to either primitive.
     const auto is_first = [&](std::size_t i) { return i < second_primitive(differences_.kind()); };
     for (std::size_t i = 0; i < static_cast<std::size_t>(vertices(differences_.kind())); ++i) {
       if (i == vertex || i == from || (has_edge && i == to)) continue;

@@ -112,8 +112,9 @@ class DistanceSearch {
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
   }
 
-  /// Whether the errors of a moment are small: that of the distance compared with the distance, and that of
-  /// the lower bound compared with the required distance.
+  /// Whether the errors of a moment are small: the error of the distance compared with the distance, and the
+  /// error of the first lower bound compared with the required distance or, if that is larger, with 0.3 of
+  /// the distance.
   [[nodiscard]] bool resolves(const Moment& moment) const {
     const Separation& separation = moment.separations[0];
     if (separation.products.empty()) return false;
@@ -169,7 +170,8 @@ class DistanceSearch {
     return *times_.insert(next, std::move(time));
   }
 
-  /// How far the step is covered from a sampled time, forward (1) or backward (-1), at most `most`.
+  /// How far bounds around a sampled time cover the step from this time on, forward (1) or backward (-1); at
+  /// most `most`.
   double covered(SampledTime& time, int direction, double most) const {
     Reach& reach = direction > 0 ? time.ahead : time.behind;
     if (reach.required != required_ || reach.most < most)
@@ -221,8 +223,8 @@ class DistanceSearch {
     return true;
   }
 
-  /// The time of a new minimum inside the gap, if one of the gap's ends predicts one, else some other time in
-  /// the gap.
+  /// The time of a new minimum inside the gap, if a moment at an end of the gap predicts this minimum, else
+  /// some other time in the gap.
   [[nodiscard]] Real guess_in(const Gap& gap) const {
     const auto sees = [&](const Moment& moment, double step) {
       constexpr double little = 0.5;
@@ -323,7 +325,8 @@ class DistanceSearch {
     const bool needs_precision = step * std::abs(a.moment.rate) < rough * differences_.total_reach();
     SampledTime next = needs_precision ? look_precisely(t) : look_between(a, t, b);
     if (!is_resolved(next)) {
-      // Shortly after this time, the distance is certainly below `low_`, unless it is almost constant there.
+      // Shortly after this time, the distance is certainly below `low_`, unless the distance is almost
+      // constant there.
       const Real later = next.t + Real(2 * resolution * low_ / std::abs(next.moment.rate));
       if (!(later < b.t)) return false;
       next = look_precisely(later);
@@ -349,8 +352,9 @@ class DistanceSearch {
 
   const VertexDifferences& differences_;
   const NeededDistance& needed_;
-  boost::container::stable_vector<SampledTime> times_;  ///< in order; they stay where they are in memory
-  std::size_t covered_times_ = 0;  ///< covered up to times_[this]; stays so, as `required_` never rises
+  boost::container::stable_vector<SampledTime> times_;  ///< in order; insertion moves no element in memory
+  /// Bounds cover the step up to times_[covered_times_], and always will, because `required_` never rises.
+  std::size_t covered_times_ = 0;
   double upper_ = std::numeric_limits<double>::infinity();
   double required_ = std::numeric_limits<double>::infinity();
   double best_time_ = 0;

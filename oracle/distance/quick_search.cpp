@@ -115,7 +115,7 @@ bool QuickSearch::look_into_first_gap() {
 
 QuickSearch::Crossing QuickSearch::crossing() const {
   constexpr int most_steps = 8;
-  constexpr double short_step = 0x1p-17;  // the error after it, about its square, is far below `rough_time`
+  constexpr double short_step = 0x1p-17;  // after it, t is wrong by about 2^-34, far below `rough_time`
   double before = first_gap().lo;
   double behind = first_gap().hi;
   double t = std::clamp(first_gap().guess, before, behind);

@@ -150,8 +150,8 @@ Separation separate_by_normal(const VerticesAt<Real>& x) {
   return separation;
 }
 
-/// For how long from t0 on, forward (1) or backward (-1), the distance is certainly at least `distance`. The
-/// result is at most `most`.
+/// The length of an interval of times from t0, forward (1) or backward (-1), in which the distance is
+/// certainly at least `distance`. The result is at most `most`.
 double certified_reach(const Separation& separation, double distance, int direction, double most);
 
 }  // namespace nearmiss::certified

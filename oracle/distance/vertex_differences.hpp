@@ -86,9 +86,9 @@ class VertexDifferences {
 
 /// The relative positions and velocities of the vertices at one time. Each component of a position is a sum
 /// of two products. A product is rounded at most four times: in 1 - t, in the product, in the sum, and in the
-/// conversion of the difference to Real. (Double words represent the difference exactly; for more bits, the
-/// sum of its halves is rounded.) A velocity is rounded at most twice, and is at most twice as large as
-/// reach(i, j).
+/// conversion of the difference to Real. (The conversion to a double word is exact; the conversion to a
+/// longer Real rounds the sum of the two halves.) A velocity is rounded at most twice, and is at most twice
+/// as large as reach(i, j).
 template <class Real>
 class VerticesAt {
  public:

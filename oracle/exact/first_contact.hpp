@@ -10,10 +10,10 @@ namespace nearmiss::exact {
 
 /// How the primitives meet at a time.
 struct Meeting {
-  /// The number of weights that vanish. With a triangle, none vanishes if the primitives meet inside the
-  /// triangle, one on an edge of it, two at a vertex of it. With two edges, none vanishes if they meet inside
-  /// both, one at an end of one edge, two at an end of each edge. Primitives without a common normal always
-  /// meet at a border, so the number is one or two.
+  /// The number of weights that vanish. With a triangle: 0 if the primitives meet inside the triangle, 1 if
+  /// on an edge of it, 2 if at a vertex of it. With two edges: 0 if they meet inside both, 1 if at an end of
+  /// one edge, 2 if at an end of each edge. Primitives without a common normal always meet at a border, so
+  /// the number is 1 or 2.
   int vanishing_weights = 0;
   /// Whether there is no common normal: the triangle has no area, or the edges are parallel or have no
   /// length.

@@ -2,19 +2,20 @@
 // about a pair of features: a vertex of each primitive, a vertex and an edge, the vertex and the triangle, or
 // two edges. A statement says that the closest points of the lines or planes through the two features lie in
 // the features and are within b of each other. The statement holds at t iff the polynomials `excess` and
-// `outside` are at most 0 at t, and `extents` are positive. (An extent is 0 if the features are degenerate;
-// then another statement covers the same points.) If the distance is at most b, the statement about the
-// closest pair of features holds; if any statement holds, two points are within b of each other.
+// `outside` are at most 0 at t, and `extents` are positive. (If the features are degenerate, an extent is 0.
+// The statements about other features, such as the ends of an edge of length 0, then cover their points.) If
+// the distance is at most b, the statement about the closest pair of features holds; if any statement holds,
+// two points are within b of each other.
 //
 // The sign of (distance - b) is 1, 0 or -1, and changes only at a time at which the distance is b. First
 // case: at t0, the sign changes to or from -1. On the side of t0 with the sign -1, the statement about a
 // closest pair holds strictly. At t0, by continuity, the pair's `outside` are at most 0, and its excess is at
-// most 0. The excess is not negative at t0: if the extents are positive, the distance would be less than b,
-// and if an extent is 0, so is the excess. So t0 is a root of the excess, which is not identically 0. Second
-// case: at t0, the sign changes between 0 and 1. On the side with the sign 0, a closest pair is b apart for
-// some time, so its excess is identically 0. On the side with the sign 1, the pair's statement does not hold,
-// although its extents have only isolated zeros. So one of its `outside` is positive on this side, and 0 at
-// t0. In both cases all `outside` are at most 0 at t0.
+// most 0. The excess is not negative at t0: if the extents are positive, a negative excess would mean a
+// distance of less than b, and if an extent is 0, the excess is 0, too. So t0 is a root of the excess, which
+// is not identically 0. Second case: at t0, the sign changes between 0 and 1. On the side with the sign 0, a
+// closest pair is b apart for some time, so its excess is identically 0. On the side with the sign 1, the
+// pair's statement does not hold. Its extents have only isolated zeros, so one of its `outside` must be
+// positive on this side, and 0 at t0. In both cases all `outside` are at most 0 at t0.
 #include "oracle/exact/nearness.hpp"
 
 #include <algorithm>
@@ -122,11 +123,11 @@ void Nearness::add_interiors(Interiors&& of) {
 
 // For each pair of features, the constructor collects times at which the closest points of the lines or
 // planes lie in the features. The smallest distance over the step is the distance of some pair at one of the
-// times collected for this pair. Proof: Let the smallest distance be reached at t0. Take a pair of features
-// of the lowest dimension among those that are at this distance at t0. If t0 is neither 0 nor 1, the closest
-// points of the lines or planes through these two features are strictly inside the features, which are not
-// degenerate: otherwise the closest points would lie in features of a lower dimension. So around t0, the
-// distance of the features is that of the lines or planes. The square of this distance is a quotient of
+// times collected for this pair. Proof: Let the smallest distance be reached at t0. Among the pairs of
+// features that are at this distance at t0, take one of the lowest dimension. If t0 is neither 0 nor 1, the
+// closest points of the lines or planes through these two features are strictly inside the features, which
+// are not degenerate: otherwise the closest points would lie in features of a lower dimension. So around t0,
+// the distance of the features is that of the lines or planes. The square of this distance is a quotient of
 // polynomials with a minimum at t0, so its derivative is 0 at t0. If the derivative is not identically 0, t0
 // is one of its roots. Otherwise the distance stays the same until t is 0 or 1, or until the closest points
 // leave the inside of the features; at that time, features of a lower dimension are at the same distance.

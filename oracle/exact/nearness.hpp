@@ -27,7 +27,7 @@ struct FeatureNearness {
   [[nodiscard]] bool holds_at(Root& t) const {
     return t.sign_of(excess) <= 0 && is_inside_at(t) && is_extended_at(t);
   }
-  /// As holds_at(), but for a distance of less than b, where holds_at() allows a distance of b.
+  /// Whether the closest points lie in the features, and are less than b apart (holds_at() allows exactly b).
   [[nodiscard]] bool holds_strictly_at(Root& t) const {
     return t.sign_of(excess) < 0 && is_inside_at(t) && is_extended_at(t);
   }
@@ -76,13 +76,13 @@ class SmallestDistance {
  public:
   explicit SmallestDistance(const Query& query);
 
-  /// Whether the smallest distance is at most `bound`, a finite number >= 0. Each comparison makes later ones
-  /// faster.
+  /// Whether the smallest distance is at most `bound`, a finite number >= 0. Each call refines the stored
+  /// roots, which makes later calls faster.
   [[nodiscard]] bool is_at_most(double bound);
 
  private:
-  /// For a pair of features: the squared distance of their lines or planes is numerator / denominator, and
-  /// the closest points of these lines or planes lie in the features at each of `times`.
+  /// A pair of features. The squared distance of the lines or planes through the features is numerator /
+  /// denominator. At each of `times`, the closest points of these lines or planes lie in the features.
   struct Minima {
     Polynomial numerator, denominator;
     std::vector<Root> times;

@@ -158,7 +158,7 @@ Polynomial primitive(const Polynomial& p) {
 
 namespace {
 
-/// The quotient of p and one of its linear factors. The coefficients of this factor have no common divisor.
+/// p divided by `factor`, a linear factor of p whose coefficients have no common divisor.
 Polynomial without_factor(const Polynomial& p, const Polynomial& factor) {
   Numbers quotient(p.coefficients().begin() + 1, p.coefficients().end());
   quotient.back() = quotient.back() / factor.leading();

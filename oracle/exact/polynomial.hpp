@@ -13,8 +13,8 @@ namespace nearmiss::exact {
 /// A binary floating-point number of any length: sums, differences and products are exact.
 using Number = CGAL::Mpzf;
 
-/// A list of numbers. Lists of up to four numbers, as many as the coplanarity cubic has coefficients, need no
-/// allocation.
+/// A list of numbers. A list of up to four numbers needs no allocation; the coplanarity cubic has four
+/// coefficients.
 using Numbers = boost::container::small_vector<Number, 4>;
 
 int sign(const Number& x);
@@ -66,7 +66,7 @@ Polynomial primitive(const Polynomial& p);
 /// p with each multiple factor reduced to a single one. The degree of p must be at least 1.
 Polynomial square_free(const Polynomial& p);
 
-/// The number of sign changes along the numbers, with zeros left out.
+/// The number of sign changes from one number to the next; zeros are skipped.
 int sign_changes(const Numbers& numbers);
 
 }  // namespace nearmiss::exact

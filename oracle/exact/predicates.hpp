@@ -11,8 +11,9 @@
 
 namespace nearmiss::exact {
 
-/// Whether a point x lies on the closed segment from a to b: it does iff every component of `cross` = (x - a)
-/// × (b - a) is zero and `dot` = (x - a) · (x - b) is not positive. This also holds if a = b.
+/// Polynomials that tell whether a point x lies on the closed segment from a to b. It does iff every
+/// component of `cross` = (x - a) × (b - a) is zero and `dot` = (x - a) · (x - b) is not positive. This also
+/// holds if a = b.
 struct OnSegment {
   PolynomialVector cross;
   Polynomial dot;

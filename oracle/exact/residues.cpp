@@ -67,7 +67,7 @@ Residues common_divisor(const Polynomial& p, const Polynomial& q) {
 
 using Integers = std::vector<mpz_class>;  ///< coefficients, the constant first
 
-/// The coefficients, times a power of two that makes all of them integers.
+/// The coefficients of p, multiplied by a power of two that makes all of them integers.
 Integers integers(const Polynomial& p) {
   Integers all;
   mpz_class power = 1;
@@ -102,7 +102,7 @@ bool vanishes_at(const Integers& c, const mpz_class& numerator, const mpz_class&
 
 Number number(const mpz_class& x) {
   if (x == 0) return 0;
-  const Number size(CGAL::Gmpz(mpz_class(abs(x)).get_mpz_t()));  // right for positive integers only
+  const Number size(CGAL::Gmpz(mpz_class(abs(x)).get_mpz_t()));  // CGAL converts only positive integers right
   return x < 0 ? -size : size;
 }
 

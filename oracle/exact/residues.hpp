@@ -11,10 +11,11 @@ namespace nearmiss::exact {
 /// common root; false proves nothing. The test takes far less time than a remainder sequence of polynomials
 /// with long coefficients.
 ///
-/// Proof: multiplied by a power of two, the polynomials have integer coefficients. Let g be their greatest
-/// common divisor over the integers. The leading coefficient of g divides that of p. If the prime does not
-/// divide the leading coefficient of p, g modulo the prime has the same degree as g. Modulo the prime, g
-/// divides both polynomials. So if the residues have no common factor, g is a constant.
+/// Proof: After multiplication by a power of two, both polynomials have integer coefficients. Let g be the
+/// greatest common divisor of these polynomials over the integers. The leading coefficient of g divides that
+/// of p. If the prime does not divide the leading coefficient of p, g modulo the prime has the same degree as
+/// g. Modulo the prime, g divides both polynomials. So if the residues have no common factor, g is a
+/// constant.
 bool are_coprime_by_residues(const Polynomial& p, const Polynomial& q);
 
 /// The greatest common divisor of a polynomial and its derivative, if the residues show that this divisor is

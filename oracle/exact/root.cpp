@@ -101,7 +101,7 @@ void shift(Numbers& c, const Multiply& times_shift) {
 Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
   // First computes the coefficients of the powers of s. Here s is a fraction of the interval, counted from lo
   // or hi, whichever has fewer bits.
-  constexpr std::size_t short_size = 4;  // up to this many coefficients, either end will do
+  constexpr std::size_t short_size = 4;  // with at most this many coefficients, counts from lo
   const bool from_hi = c.size() > short_size &&
                        exponent_of_denominator(CGAL::Gmpq(hi)) < exponent_of_denominator(CGAL::Gmpq(lo));
   const Number& from = from_hi ? hi : lo;
@@ -308,7 +308,8 @@ void Root::refine() {
   const Number radius = Number(8) * unit;
   const Number below = guess - radius;
   const Number above = guess + radius;
-  // Roots are often numbers of few bits, and signs at such numbers are fast to compute.
+  // First cuts at the simplest number near the guess: roots are often numbers of few bits, and the sign at
+  // such a number is fast to compute.
   for (const Number& at :
        {Number(certified::simplest_between(CGAL::to_double(below), CGAL::to_double(above))), below, above})
     if (!is_number() && lo_ < at && at < hi_) cut(at);
@@ -320,12 +321,12 @@ void Root::refine() {
 namespace {
 
 /// Requires that p has at most one root between lo and hi, that this root is simple, and that p and q are not
-/// both zero at lo or at hi. If q has the root, too, returns the polynomial of the lowest degree that was
-/// found to have it (p or a common divisor of p and q), otherwise nothing. A common divisor has the root if
-/// and only if the signs of the divisor at lo and hi differ.
+/// both zero at lo or at hi. If q has the root, too, returns a polynomial that has it: p or, if its degree is
+/// lower, the greatest common divisor of p and q. Otherwise returns nothing. The divisor has the root iff its
+/// signs at lo and hi differ.
 std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Polynomial& q, const Number& lo,
                                                    const Number& hi) {
-  constexpr int short_degree = 3;  // up to this degree, finding a divisor takes less time than residues
+  constexpr int short_degree = 3;  // up to this degree, finding the divisor is faster than testing residues
   if (std::max(p.degree(), q.degree()) > short_degree && are_coprime_by_residues(p, q)) return nullptr;
   Polynomial common = greatest_common_divisor(p, q);
   if (common.degree() < 1 || common.sign_at(lo) == common.sign_at(hi)) return nullptr;
@@ -337,7 +338,7 @@ std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Po
 int Root::sign_of(const Polynomial& q) {
   if (q.degree() < 1) return q.is_zero() ? 0 : sign(q.leading());
   if (!is_number() && are_proportional(*p_, q)) return 0;
-  constexpr int patience = 1;  // one refinement, by 44 bits, nearly always shows a nonzero sign
+  constexpr int patience = 1;  // one refinement narrows by 44 bits, which nearly always shows a nonzero sign
   for (bool can_be_zero = true;;) {
     if (is_number()) return q.sign_at(lo_);
     if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;

@@ -35,7 +35,8 @@ class OnInterval {
   [[nodiscard]] OnInterval part(const Number& from, const Number& to) const;
   /// Rounds very long coefficients. Parts inherit the errors.
   void round();
-  /// Whether rounding cannot have changed the sign of any coefficient, or its size by a factor of 2.
+  /// Whether rounding has certainly changed the sign of no coefficient, and the size of none by a factor of
+  /// 2.
   [[nodiscard]] bool is_certain() const;
 
   /// The n + 1 Bernstein coefficients, each times its binomial coefficient, where n is the degree.
@@ -58,10 +59,11 @@ class OnInterval {
   /// the upper end.
   [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
-  /// Three fractions of the interval, for the case that all roots are near the same end. All roots lie
-  /// strictly between `lower` and `upper`. The distance of `middle` from that end is about the geometric mean
-  /// of the distances of `lower` and `upper`. All three are 0 if the coefficients show that there is no root.
-  /// roots_near_end() requires that the coefficients change their sign, and that no root is at an end.
+  /// The result of roots_near_end() if all roots are near the same end of the interval: three fractions of
+  /// the interval. All roots lie strictly between `lower` and `upper`. The distance of `middle` from that end
+  /// is about the geometric mean of the distances of `lower` and `upper`. All three are 0 if the coefficients
+  /// show that there is no root. roots_near_end() requires that the coefficients change their sign, and that
+  /// no root is at an end.
   struct NearEnd {
     Number lower, middle, upper;
   };
@@ -71,7 +73,8 @@ class OnInterval {
   explicit OnInterval(Numbers&& c) : c_(std::move(c)) {}
 
   Numbers c_;
-  /// Each coefficient is off by less than its binomial coefficient times 2^error; nothing if all are exact.
+  /// The error of each coefficient is below its binomial coefficient times 2^error_. Without a value, all
+  /// coefficients are exact.
   std::optional<std::ptrdiff_t> error_;
 };
 
@@ -102,7 +105,7 @@ class Root {
 
  private:
   [[nodiscard]] bool is_number() const { return !p_; }
-  /// Whether this and `other` are the same root. If so, both then have the same polynomial and interval.
+  /// Whether this and `other` are the same root. If they are, gives both the same polynomial and interval.
   bool is_same(Root& other);
   void cut(const Number& at);
   void take(std::shared_ptr<const Polynomial> p, Number lo, Number hi);

@@ -11,8 +11,9 @@ namespace nearmiss::exact {
 
 namespace {
 
-/// The result of isolate() for a polynomial that is not zero at 0 or 1: its roots in (0, 1), in ascending
-/// order, or one root that was found as a number. `found` is false if the search gave up.
+/// The result of isolate() for a polynomial that is not zero at 0 or 1. `roots` has its roots in (0, 1), in
+/// ascending order. But if a cut hit a root exactly, `number` is this root, and `roots` is empty. `found` is
+/// false if the search gave up.
 struct Isolated {
   std::vector<Root> roots;
   std::optional<Number> number;
@@ -30,12 +31,12 @@ struct Cuts {
 struct Part {
   Number lo, hi;
   OnInterval on;
-  bool at_extremum = true;     ///< whether usual() cuts near an extremum next, not in the middle
+  bool at_extremum = true;     ///< whether the next usual() cuts near an extremum, or else in the middle
   unsigned bits = 44;          ///< see clusters()
-  bool is_in_cluster = false;  ///< whether clusters() was called, so that coefficients may be long
+  bool is_in_cluster = false;  ///< whether clusters() was called; coefficients may then be long
 
   explicit Part(const Polynomial& p) : lo(0), hi(1), on(p, 0, 1) {}
-  /// The part of `whole` between two fractions of it.
+  /// The part of `whole` between the fractions `from` and `to` of `whole`.
   Part(const Polynomial& p, const Part& whole, const Number& from, const Number& to)
       : lo(whole.at(from)),
         hi(whole.at(to)),
@@ -56,17 +57,17 @@ struct Part {
     return {0, 1, {Number(guess + around_it), Number(guess - around_it)}};
   }
 
-  /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster if the coefficients
-  /// there have as many changes of sign as before; then there is no root elsewhere. Returns cuts that
-  /// separate clusters, if it finds any.
+  /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster if the coefficients on
+  /// the neighbourhood have as many changes of sign as those on the part: the rest of the part then has no
+  /// root. Returns cuts that separate clusters, if it finds any.
   std::optional<Cuts> clusters(const Polynomial& p) {
     constexpr unsigned least_bits = 11;
     is_in_cluster = true;
     for (bool shrunk = false;; shrunk = true) {
       if (const auto near_end = on.roots_near_end())
         return Cuts{near_end->lower, near_end->upper, {near_end->middle}};
-      // Parts shrink quadratically towards a multiple of 2^-bits, until this multiple is no farther from the
-      // roots of the cluster than these roots are from each other.
+      // Each round shrinks the part around a multiple of 2^-bits, and doubles `bits`. Rounds succeed until
+      // this multiple is no farther from the roots of the cluster than these roots are from each other.
       const auto cluster = on.guess_cluster(bits);
       if (!cluster) break;
       const Number unit = power_of_half(bits);
@@ -86,8 +87,8 @@ struct Part {
   }
 };
 
-/// Cuts [0, 1] until every part has no root or one simple root. The cuts are alternately near an extremum,
-/// which separates two close roots, and in the middle. `is_simple` says that the polynomial has no multiple
+/// Cuts [0, 1] until every part has no root or one simple root. Cuts near an extremum, which separate two
+/// close roots, alternate with cuts in the middle. `is_simple` says that the polynomial has no multiple
 /// roots. If it is false, the search gives up after a few cuts; if it is true, the search then looks for
 /// clusters of roots between the cuts.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {

@@ -138,14 +138,14 @@ class BatchFilter {
       for (std::size_t l = 0; l < n; ++l) fetch(ahead_.x(rows[i + l]));
       const PointLanes x = points(rows.pack(i));
       const Mask apart = separated_across_axes<kind>(x) | separated_across_diagonals<kind>(x);
-      // Four sums are computed side by side, because each addition to a sum waits for the one before. The
-      // total is finite only if all coordinates are finite.
+      // Four partial sums do not depend on each other, so the processor can compute them at the same time.
+      // The total is finite only if all coordinates are finite.
       std::array<Real, 4> sums{x.x[0], x.x[1], x.x[2], x.x[3]};
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
       const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
       // The stages for the codes 0 to 4. Code 0: a coordinate is not finite; 1: the primitives are not
-      // separated; 2: only a plane separates them; 3: only their boxes; 4: both.
+      // separated; 2: only a plane separates them; 3: only the test of the boxes does; 4: both do.
       constexpr std::array stage_of{FilterStage::undecided, FilterStage::undecided, FilterStage::planes,
                                     FilterStage::boxes, FilterStage::boxes};
       constexpr int unsure = 1;
@@ -269,8 +269,8 @@ class BatchFilter {
     }
   }
 
-  /// Computes in double words the weights near those roots of F at which double does not show the weights'
-  /// signs.
+  /// Near some roots of F, double does not show the signs of the weights. Computes the weights near these
+  /// roots in double words.
   void look_precisely(std::size_t i, const Rows& rows, FilterStage* stages, PendingParts& next) {
     const PendingPart* const pack = &precise_.parts[i];
     const auto take = [&](const OfBatch& c) {
@@ -306,7 +306,8 @@ class BatchFilter {
         seen, precise_.count - i, [&](std::size_t l) { return pack[l]; }, rows, stages, next);
   }
 
-  /// Sets stages and first contacts from the results for n parts, and adds the parts to examine next.
+  /// Takes over the results for n parts: sets stages and first contacts, and adds to `next` the parts that
+  /// must be examined next.
   template <class PartOfLane>
   void take_over(const Look& seen, std::size_t lanes, const PartOfLane& part_of_lane, const Rows& rows,
                  FilterStage* stages, PendingParts& next) {
@@ -340,8 +341,8 @@ class BatchFilter {
     });
   }
 
-  /// For each first contact before which no part is unclear, finds the neighbouring doubles around the
-  /// contact.
+  /// Finds the neighbouring doubles around the first contact of each query that has no unclear part before
+  /// this contact.
   void find_neighbours(const Rows& rows, KnownTime* times) const {
     const Rows places(rows.size(),
                       [&](std::size_t place) { return first_lo_[place] < unclear_from_[place]; });
@@ -365,7 +366,7 @@ class BatchFilter {
   }
 
   QueryRows queries_, ahead_;
-  double caution_;  ///< factor of all error bounds, at least 1
+  double caution_;  ///< all error bounds are multiplied by this factor, which is at least 1
   bool asks_first_ = false;
   // These arrays are indexed like the list of searched queries; a pack of lanes may reach beyond the end of
   // this list.

@@ -9,7 +9,7 @@
 #include "oracle/arithmetic/bernstein.hpp"
 #include "oracle/arithmetic/guess.hpp"
 
-// What polynomials and their bounds need so that Lanes can be their number type.
+// These definitions let polynomials and their bounds use Lanes as their number type.
 namespace nearmiss {
 
 template <int n>
@@ -89,7 +89,7 @@ struct Look {
   Lanes<n> left, right;
 };
 
-/// In each lane, what is certain about F, the coplanarity cubic, at the ends of a part. `rises`: F rises
+/// The certain signs of F, the coplanarity cubic, at the ends of a part, in each lane. `rises`: F rises
 /// through 0 from the left to the right end. `changes`: F changes its sign in either direction. The other
 /// members say at which ends the sign of F is known.
 template <int n>
@@ -137,8 +137,8 @@ struct RootBracket {
   }
 };
 
-/// The time at which a part is divided: near an extremum of F in [lo, hi] if F has one sign at both ends,
-/// else in the middle.
+/// The time at which a part is divided: an estimated extremum of F inside [lo, hi] if one is found and F does
+/// not certainly change its sign from lo to hi, else the middle.
 template <int n>
 Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, const Lanes<n>& lo,
                   const Lanes<n>& hi) {
@@ -147,9 +147,9 @@ Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, con
   return lo + (hi - lo) * select(usable, turn, Lanes<n>(0.5));
 }
 
-/// The lanes in which, at each end of [lo, hi] at which the sign of F is not known, two weights certainly
-/// have opposite signs. In these lanes, there is no contact at such ends, and dividing the part may still
-/// decide the query.
+/// The lanes in which two weights certainly have opposite signs at every end of [lo, hi] at which the sign of
+/// F is unknown. In these lanes, there is no contact at such an end, and dividing the part may still decide
+/// the query.
 template <int n, std::size_t count>
 typename Lanes<n>::Mask opposed_at_unknown_ends(const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
                                                 const EndSigns<n>& ends, const Lanes<n>& lo,

@@ -36,7 +36,7 @@ bool separated_by_a_plane(const Query& query) {
          });
 }
 
-/// What a ContactSearch found: `stage` is the result of run(); `time` has the results of first() and
+/// The result of a ContactSearch: `stage` is the result of run(); `time` has the results of first() and
 /// is_between(), and is empty if first() returns nothing.
 struct Found {
   FilterStage stage;
@@ -146,7 +146,7 @@ void filter(const QueryRows& queries, std::span<FilterStage> stages, std::span<K
       if (!is_finite(query)) continue;
       if (!boxes_meet(query))
         stages[i] = FilterStage::boxes;
-      else if (times.empty() && crosses_in_a_plane(query))  // saves a search, which is likely to fail
+      else if (times.empty() && crosses_in_a_plane(query))  // a search before this test would probably fail
         stages[i] = FilterStage::at_an_end;
       else
         stages[i] = filter(query, times.empty() ? nullptr : &times[i]);

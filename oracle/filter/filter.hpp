@@ -22,7 +22,7 @@ enum class FilterStage : std::uint8_t {
   one_sign,     ///< no: F keeps one sign
   weights,      ///< no: two weights have opposite signs at every time at which F may vanish
   sign_change,  ///< yes: F changes its sign while all weights have one sign
-  at_an_end,    ///< yes: a contact with F or a weight exactly 0, as at t = 0 or 1 (sure_contact.hpp)
+  at_an_end,    ///< yes: F or a weight is exactly 0 at the contact, as at t = 0 or 1 (sure_contact.hpp)
   apart,        ///< no: the distance is always above the separation h > 0
   within,       ///< yes: the distance falls below the separation h > 0
   undecided,    ///< exact arithmetic must decide
@@ -46,9 +46,9 @@ FilterStage filter(const Query& query);
 /// The width to which most times can be enclosed without double words.
 inline constexpr double rough_time = 0x1p-30;
 
-/// An interval that contains the time of the first contact, computed in the arithmetic of filter(); nothing
-/// if there certainly is no contact. Most intervals are at most `width` wide, or as narrow as doubles allow.
-/// The box test is not included.
+/// An interval that contains the time of the first contact, if there is one; nothing if there certainly is
+/// none. Uses the arithmetic of filter(). Most intervals are at most `width` wide, or as narrow as doubles
+/// allow. The box test is not included.
 std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
 /// Decides many queries of any kinds; the box test is included. The instruction set does not affect the

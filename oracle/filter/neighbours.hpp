@@ -45,7 +45,7 @@ Neighbours<Real> neighbours_of_root(const StepPart<DoubleWordOf<Real>>& step, co
   Real guess = lo + 0.5 * (hi - lo);
   const Mask is_monotone(abs(slopes.at(guess)) > slopes.error_near(hi - lo));
   const auto in_bracket = [&](const Real& time) { return min(max(time, lo), hi); };
-  constexpr double narrow = 0x1p-26;  // below this, the step in double words suffices
+  constexpr double narrow = 0x1p-26;  // up to this width, the step in double words suffices
   const int newton_steps = any_of(Mask(hi - lo > narrow)) ? 3 : 0;
   for (int i = 0; i < newton_steps; ++i) guess = in_bracket(guess - F.at(guess) / slopes.at(guess));
 

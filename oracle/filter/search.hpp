@@ -95,12 +95,12 @@ class ContactSearch {
     return go_on_beside(interval, {split, split});
   }
 
-  /// The Bernstein coefficients of F as seen from the other end of an interval.
+  /// The Bernstein coefficients of F on an interval, counted from the other end of the interval.
   static std::array<double, 4> backwards(const std::array<double, 4>& f) { return {f[3], f[2], f[1], f[0]}; }
 
   /// Estimates where in an interval, as a fraction of its length, |F| begins to exceed its error by the
-  /// factor `clear`. This is the smallest fraction at which a single term of F does so, or 0.5 if that is not
-  /// below 0.25.
+  /// factor `clear`. The estimate is the smallest fraction at which a single term of F exceeds the error by
+  /// this factor. If this fraction is not below 0.25, the result is 0.5.
   [[nodiscard]] double beyond_error(const std::array<double, 4>& f) const {
     const Powers<double> F = in_powers(f);
     const double rise = clear * F_.error;
@@ -154,7 +154,7 @@ class ContactSearch {
     return agree ? found(interval, interval) : zoom(interval);
   }
 
-  /// Notes a contact in `near`, a part of an interval: F changes its sign in `near`, and all weights have one
+  /// Notes a contact in `near`, a part of `interval` in which F changes its sign and all weights have one
   /// sign.
   FilterStage found(const Enclosure& near, const Enclosure& interval) {
     const Enclosure first = asked_ == Asked::when_precisely && is_whole() ? first_change(near) : near;
@@ -163,8 +163,8 @@ class ContactSearch {
     return look_before(first, interval);
   }
 
-  /// Narrows an interval around F's first change of sign: to neighbouring doubles if |F| exceeds its error at
-  /// each time that is tried.
+  /// Bisects an interval in which F changes its sign, and keeps the part with the first change. Ends at
+  /// neighbouring doubles, or as soon as errors hide where the first change is.
   [[nodiscard]] Enclosure first_change(Enclosure near) const {
     const bool rises = F_.at(near.hi) > 0;
     while (true) {
@@ -193,8 +193,9 @@ class ContactSearch {
     return F_.sign_on(interval.lo, near.lo) != 0 && F_.sign_on(near.hi, interval.hi) != 0;
   }
 
-  /// Two weights certainly have opposite signs in `near`. Tries a few wider intervals around it, and returns
-  /// the widest in which this holds, too, or `near`.
+  /// Requires that two weights certainly have opposite signs in `near`. Tries a few wider intervals around
+  /// `near`, and returns the widest in which two weights certainly have opposite signs, or `near` if there is
+  /// none.
   Enclosure widest_opposed(const Enclosure& interval, double root, const Enclosure& near,
                            const Weights<Real>& weights) const {
     for (const double part : {0.25, 0x1p-5}) {
@@ -231,7 +232,7 @@ class ContactSearch {
   }
 
   /// Searches the interval as a part of its own. The interval remains unclear if it is longer than half of
-  /// this part, or if this part is too short or too deep.
+  /// this part, or if this part is too short or the result of too many zooms.
   FilterStage zoom(const Enclosure& interval) {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;
@@ -252,7 +253,8 @@ class ContactSearch {
   [[nodiscard]] bool is_whole() const { return part_.end - part_.begin == 1; }
 
   /// Converts an interval of this part to the time of the step, and widens it by `rounding` within this part.
-  /// `zoom_rounding` as `rounding` covers the errors of this function: four roundings of numbers up to 1.
+  /// If `rounding` is `zoom_rounding`, it covers the errors of this function, four roundings of numbers up to
+  /// 1.
   [[nodiscard]] Enclosure in_step(const Enclosure& interval, double rounding) const {
     const double length = part_.end - part_.begin;
     return {std::max(part_.begin, part_.begin + interval.lo * length - rounding),

@@ -48,12 +48,12 @@
 // - w, l, M and L are computed in double and may be too small by a relative error of 12 · 2^-53. This is far
 //   less than the margins of the code's constants.
 //
-// - Underflow adds at most H, `product_underflow` times the smallest double, to the error of a product, a
-//   halving or a division by 3; sums are exact in that range. Underflow adds 2 H to a coefficient of W, or 3
-//   H to the middle one, and 2 H in each of two levels of de Casteljau's algorithm: at most 7 H. The products
-//   in the bound of W, with those of `error_near`, may be too small by 11 H. For F, the products of b and c
-//   add 2 H Σ A_k, and all other products add 9 H; L may be too small by 10 H Σ (A_k + e_k), and the rest of
-//   the bound by 10 H. The code uses 32 H for W and 32 H (1 + Σ (A_k + e_k)) for F.
+// - Let H be `product_underflow` times the smallest double. Underflow adds at most H to the error of a
+//   product, a halving or a division by 3; sums in that range are exact. Underflow adds 2 H to a coefficient
+//   of W, or 3 H to the middle one, and 2 H in each of two levels of de Casteljau's algorithm: at most 7 H.
+//   The products in the bound of W, with those of `error_near`, may be too small by 11 H. For F, the products
+//   of b and c add 2 H Σ A_k, and all other products add 9 H; L may be too small by 10 H Σ (A_k + e_k), and
+//   the rest of the bound by 10 H. The code uses 32 H for W and 32 H (1 + Σ (A_k + e_k)) for F.
 //
 // - Overflow: sums of products are at most 2 w in W and 3 M in F, up to rounding. The bounds are computed
 //   from 4 w and 4 M (`headroom`). If a coefficient or a result of `Bernstein` overflows, it is infinite or
@@ -250,7 +250,7 @@ struct Weights {
   [[nodiscard]] int agreement_on(double lo, double hi) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
   }
-  /// Like agreement_on(t - h, t + h), but faster. If h is small, the result is as sharp.
+  /// Like agreement_on(t - h, t + h), but faster. If h is small, both use equally sharp bounds.
   [[nodiscard]] int agreement_near(double t, double h) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_near(t, h); });
   }

@@ -105,7 +105,7 @@ bool touch_at(const Query& query, double time) {
     const int of_1 = orientation(x, 2, 3, 1, k);
     const int of_2 = orientation(x, 0, 1, 2, k);
     const int of_3 = orientation(x, 0, 1, 3, k);
-    if (of_0 == of_1 && of_2 == of_3) continue;  // perhaps parallel, or projected onto one line
+    if (of_0 == of_1 && of_2 == of_3) continue;  // the edges may be parallel, or projected onto one line
     return of_0 * of_1 <= 0 && of_2 * of_3 <= 0;
   }
   // If no component has decided, the triangle has no area and is the union of its edges, or the two edges are

@@ -139,7 +139,7 @@ class Queries {
 
 namespace detail {
 
-/// Whether a span has one element for each query, or is empty where that is allowed.
+/// Whether a span has one element for each query. If `may_be_empty` is true, an empty span fits, too.
 template <class T>
 bool fits(const Queries& queries, std::span<T> to, bool may_be_empty = false) {
   return to.size() == queries.size() || (may_be_empty && to.empty());
@@ -219,7 +219,8 @@ inline Status wang(const Queries& queries, std::span<std::int8_t> answers) noexc
                      [&](const nearmiss_queries* layout) { return nearmiss_wang(layout, answers.data()); });
 }
 
-/// nearmiss_wang_bound(): an upper bound of the distance at which wang may report a false positive.
+/// nearmiss_wang_bound(): a bound for each query. If wang falsely reports the query, its primitives come
+/// within this distance.
 inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noexcept {
   const bool fit = detail::fits(queries, bounds);
   return detail::ask(queries, fit, [&](const nearmiss_queries* layout) {

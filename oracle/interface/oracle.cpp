@@ -25,7 +25,7 @@ std::uint8_t decider(FilterStage stage) {
   }
 }
 
-/// The smallest number of queries that are decided faster side by side than one by one.
+/// From this number of queries on, deciding side by side is faster than deciding one by one.
 constexpr std::size_t fewest_side_by_side = 4;
 
 struct Answers {

@@ -32,7 +32,7 @@ extern "C" {
 
 /** Whether each query is a collision: answers[q] is NEARMISS_COLLISION, NEARMISS_NO_COLLISION or
  * NEARMISS_NO_ANSWER. A smallest distance of exactly h, the separation, counts as a collision. `decided_by`
- * says what decided, and may be null. */
+ * receives what decided each query, and may be null. */
 int nearmiss_collides(const nearmiss_queries* queries, int8_t* answers, uint8_t* decided_by);
 
 /** The earliest time t* at which the distance is at most h: lo[q] <= t* <= hi[q], where lo and hi are equal
@@ -53,8 +53,8 @@ int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_
                                double* hi);
 
 /** The certificate of query q. From a certificate, the short programs in tools/certificates/ of the sources
- * verify the answer with fractions alone. A certificate is a text of lines, with '\n' between two of them.
- * Each line is JSON, and proves one statement about the query:
+ * verify the answer with fractions alone. A certificate is a text of lines, with '\n' between successive
+ * lines. Each line is JSON, and proves one statement about the query:
  *
  *     what                       statements
  *     NEARMISS_PROVE_DECISION    the distance is always above h; or it is at most h at some time

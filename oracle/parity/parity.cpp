@@ -64,7 +64,7 @@ Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const I
                          const RayDirection& d) {
   const int volume = sign(determinant(a, b, c));
   if (volume == 0) {
-    // The triangle's plane holds the origin, so a ray that leaves the plane does not meet the triangle.
+    // The triangle's plane contains the origin, so a ray that leaves the plane does not meet the triangle.
     const IntegerVector n = CGAL::cross_product(b - a, c - a);
     if (n == CGAL::NULL_VECTOR) {
       // The triangle is a segment or a point. Only rays in a plane through the origin and the triangle can
@@ -82,7 +82,7 @@ Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const I
   const auto [least, most] = std::minmax_element(sides.begin(), sides.end());
   if (*least < 0 && *most > 0) return 0;
   if (std::count(sides.begin(), sides.end(), 0) > 0) return std::nullopt;
-  return *least == volume ? 1 : 0;  // 1 if the ray, not its opposite, meets the triangle
+  return *least == volume ? 1 : 0;  // 1 if the ray meets the triangle, 0 if the opposite ray does
 }
 
 // --- bilinear patches -------------------------------------------------------------------------------------
@@ -139,8 +139,9 @@ bool reaches_zero_at_root(Quadratic g, const Quadratic& h) {
   return false;
 }
 
-/// Whether the origin is on a flat patch, if it is in the patch's plane. It is on the patch iff, for some t
-/// in [0, 1], it is on the segment between the patch's points (s, t) with s = 0 and s = 1.
+/// Whether the origin is on a flat patch. Requires that the origin is in the patch's plane. The origin is on
+/// the patch iff, for some t in [0, 1], it is on the segment from the patch's point for (0, t) to its point
+/// for (1, t).
 bool flat_patch_holds_origin(const BilinearPatch& patch) {
   const IntegerVector a0 = patch.p00;
   const IntegerVector a1 = patch.p01 - patch.p00;
@@ -162,8 +163,8 @@ bool flat_patch_holds_origin(const BilinearPatch& patch) {
 /// the edge p00 p11 are on the side of the patch on which λ00 λ11 > λ10 λ01.
 struct Position {
   bool on_patch = false;
-  bool in_plane = false;    ///< the origin is in a flat patch's plane; rays out of the plane miss the patch
-  bool other_pair = false;  ///< whether triangles with the diagonal p10 p01, not p00 p11, replace the patch
+  bool in_plane = false;    ///< the origin is in the plane of a flat patch, but not on the patch
+  bool other_pair = false;  ///< the triangles that replace the patch share the edge p10 p01, not p00 p11
 };
 
 Position position(const BilinearPatch& patch) {
@@ -192,7 +193,8 @@ Position position(const BilinearPatch& patch) {
 }
 
 /// The crossings with a patch that does not contain the origin. Counts the crossings with two triangles
-/// instead. They have the same border as the patch, and the origin is not between them and the patch.
+/// instead, which together have the border of the patch. The origin is not between these triangles and the
+/// patch.
 Crossings cross_patch(const BilinearPatch& patch, const Position& position, const RayDirection& d) {
   const auto& [p00, p10, p01, p11] = patch;
   if (position.in_plane) {
@@ -213,8 +215,8 @@ Crossings cross_patch(const BilinearPatch& patch, const Position& position, cons
 
 // --- the boundary of the domain ---------------------------------------------------------------------------
 
-/// For each axis, the smallest k for which 2^k times every coordinate is an integer. Scaling an axis changes
-/// no answer.
+/// For each axis, the smallest k for which 2^k times every coordinate along this axis is an integer. Scaling
+/// an axis changes no answer.
 using Scale = std::array<int, 3>;
 
 Scale integer_scale(const Query& query) {

@@ -26,8 +26,7 @@ namespace {
 /// Sorts the findings of a run's shards into the order in which a single machine would have found them, and
 /// drops the findings that a single machine would not have kept.
 void keep_first(std::vector<Finding>& findings) {
-  // A stable sort keeps the order of the findings of a case: they come from one shard, which has them in
-  // order.
+  // All findings of a case come from one shard, which has them in order. A stable sort keeps this order.
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.place < b.place; });
   FirstFindings first;
@@ -37,7 +36,7 @@ void keep_first(std::vector<Finding>& findings) {
 std::string describe(const RunInfo& info) {
   std::string text;
   for (const auto& [name, value] : info)
-    if (name != "again")  // a command that only repeats the other facts
+    if (name != "again")  // its value, a command, says no more than the other facts
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
   return text;
 }
@@ -223,7 +222,7 @@ bool may_ask(const RunInfo& info, const CountsKey& key) {
          });
 }
 
-/// The key with its separation in one form, so that families with 0.1 and with 0.10 have equal keys.
+/// The key with its separation in the usual form, so that the separations 0.1 and 0.10 give equal keys.
 CountsKey with_usual_separation(CountsKey key) {
   FamilyName of(key.family);
   const auto separation = of.separation ? number_in(*of.separation) : std::nullopt;
@@ -249,8 +248,8 @@ bool is_of_files(std::string_view root) { return root == "mesh" || root == "near
 class AskedQueries {
  public:
   /// Adds a campaign; `name` is the name of its store. Throws Error if this campaign and an earlier one have
-  /// the same step of a simulation, or have runs with the same seed that asked the same subject queries of
-  /// the same family. Shards of one run do not count as two runs, because they ask different queries.
+  /// the same step of a simulation, or have runs with the same seed that put queries of the same family to
+  /// the same subject. Shards of one run do not count as two runs, because they ask different queries.
   void add(const Campaign& campaign, const std::string& name);
 
  private:

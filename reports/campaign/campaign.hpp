@@ -15,8 +15,8 @@
 
 namespace nearmiss {
 
-/// The key that orders findings for display: by the class of the query, then shrunk findings before the
-/// others, then by exoticness(), the rank of the shrunk query.
+/// A key to sort findings for display: by the class of the query, then shrunk findings before unshrunk ones,
+/// then by the exoticness() of the shrunk query.
 inline auto least_exotic_first(const Finding& finding) {
   return std::tuple(finding.query_class, !finding.is_shrunk, exoticness(finding.shrunk, finding.query_class));
 }
@@ -52,14 +52,14 @@ struct DifferentFact {
   std::string name, one, other;
 };
 /// A fact that differs between `one` and `other`, if any. The fact "again", the command that repeats a run,
-/// is not compared, because it only repeats the other facts.
+/// is not compared, because it says no more than the other facts.
 std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other);
 
 /// Name of the fact that says what a run lost when its store was salvaged. A run with this fact differs from
 /// the original run, so no command resumes the salvaged run.
 inline constexpr const char* salvaged_fact = "salvaged";
-/// Name of the fact that a salvage gives to every run of a store that lost rows about runs: some results of
-/// the store may belong to a run that is no longer known.
+/// Name of a fact about a salvaged store that has lost rows about runs. The salvage gives this fact to every
+/// run of the store, because some results may belong to a run that is no longer known.
 inline constexpr const char* origin_fact = "origin";
 
 /// Value of a run's fact "cases" if the run has no limit on the number of cases.
@@ -71,7 +71,7 @@ struct Shard {
   std::uint64_t count = 1;
   std::uint64_t cases = 0;  ///< number of cases decided so far, in order; a resumed run goes on after them
   bool complete = false;
-  std::string started = {};  ///< date and time, for people only: clocks jump
+  std::string started = {};  ///< date and time; only people read them, because clocks jump
   double seconds = 0;        ///< run time so far
   RunInfo environment = {};  ///< machine and compiler: only run times depend on them
 

@@ -14,7 +14,7 @@ namespace nearmiss {
 /// ratio belongs to the original query.
 Finding of_shrunk(const Finding& finding);
 
-/// The case with a finding's query. It records the truth if the finding implies it.
+/// A case with the query of a finding. The case also records the true answer if the finding implies it.
 Case to_case(const Finding& finding);
 
 /// A name for the file of a finding's case: the sort of the finding, the subject, and `id`. Subjects with

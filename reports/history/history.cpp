@@ -49,8 +49,8 @@ class Told {
   void end_night(const NightReport& night) {
     for (const auto& [subject, of_night] : night.subjects) {
       night_before_[subject].clear();
-      // After a clean night, a failure is news again, even if the subject's code seems unchanged. The code of
-      // a program (`pipe:`) may have changed, since nearmiss does not know it.
+      // After a clean night, a failure is news again, even if the subject's code seems unchanged. It may have
+      // changed: nearmiss does not know the code of a program (`pipe:`).
       if (of_night.clean)
         std::erase_if(told_, [&, name = subject](const Topic& each) {
           const auto& [of, what, topic] = each;
@@ -157,7 +157,7 @@ void add_changes(Told& told, Night& night) {
   }
 }
 
-/// "version 2"; or, unless `by_version`, the build, with a commit of at most 12 digits
+/// The text of a code, such as "version 2", if `by_version`; else its build, with at most 12 digits.
 std::string text_of(const SubjectCode& code, bool by_version) {
   return by_version ? code.text() : code.build.substr(0, std::string_view("commit 0123456789ab").size());
 }

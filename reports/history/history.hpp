@@ -38,7 +38,7 @@ struct SubjectNight {
   bool clean = true;
   std::string text;  ///< the verdict on the subject
   std::optional<double> queries = {}, false_positive_rate = {}, ns_per_query = {};
-  std::map<std::string, std::pair<double, double>> missed = {};  ///< by class: misses and collisions
+  std::map<std::string, std::pair<double, double>> missed = {};  ///< misses and collisions of each class
 };
 
 /// The campaign of one night, and what its report says.
@@ -91,8 +91,8 @@ struct WayToFail {
 
 struct History {
   std::vector<Night> nights;  ///< in the order of read_nights
-  /// Failures that last come first, then the others. Each of these groups is sorted by the last night that
-  /// saw the failure, the latest first, then by the number of queries, the largest first.
+  /// Lasting failures (`lasts`) come first, then the others. Each of these groups is sorted by the last night
+  /// that saw the failure, the latest first, then by the number of queries, the largest first.
   std::vector<WayToFail> ways;
 };
 

@@ -3,7 +3,7 @@
 
 /**
  * The width of each of two panels side by side: 300 to `widest` pixels. `labels` is the width that the labels
- * of both panels need.
+ * of both panels need together.
  */
 const panelWidth = (widest, labels = 150) => Math.max(300, Math.min(widest, (element("how").clientWidth - labels) / 2));
 
@@ -25,8 +25,8 @@ const kindNames = Object.keys(kindTitles);
 const boundField = { field: "bound_of_distances", title: "bound" };
 
 /**
- * A logarithmic axis whose ends stand for 0 and infinity, if `values` have them. The result's function `at`
- * maps 0 and infinity to these ends. `written` is the Vega expression that formats other values.
+ * A logarithmic axis. If `values` contain 0 or infinity, an end of the axis stands for it, and the result's
+ * function `at` maps it to this end. `written` is the Vega expression that formats other values.
  */
 function logAxis(values, written = "digits(datum.value, 3)") {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));

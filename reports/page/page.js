@@ -161,8 +161,8 @@ function drawSlowest() {
 }
 
 /**
- * For subjects that pass queries on to another stage if they are not sure, draws how many queries each stage
- * decided.
+ * Some subjects pass a query on to another stage if they are not sure. Draws how many queries of these
+ * subjects each stage decided.
  */
 function drawDeciders() {
   const rows = report.deciders;

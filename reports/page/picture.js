@@ -24,8 +24,8 @@ const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a
 
 /**
  * A query whose coordinates are moved and scaled into [-1, 1]. The function `at` returns the scaled places of
- * the vertices at the time t of the query's step. If it gets another `step` of the same vertices, it returns
- * their places at the time t of that step. `unit` is the length that is scaled to 1.
+ * the vertices at the time t of the query's step. With a second argument, another step of the same vertices,
+ * it returns their places at the time t of that step. `unit` is the length that is scaled to 1.
  */
 function scaledQuery(query) {
   const x = query.slice(0, query.length - (query.length % 6));

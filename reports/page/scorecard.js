@@ -111,8 +111,9 @@ function subjectCell({ subject, finding }) {
 }
 
 /**
- * Sorts subjects. Failed subjects come first, by their rates of misses, ordinary misses first. Then come
- * subjects without failures, by their run times, and last the subjects that are asked beyond their contracts.
+ * Sorts subjects. Failed subjects come first, sorted by their rates of misses on ordinary queries, then on
+ * the other classes. Subjects without failures follow, sorted by their run times. Subjects that are asked
+ * beyond their contracts are last.
  */
 function inOrder(verdicts) {
   const rates = ({ classes }) => classNames.map((name) => -(classes[name]?.false_negative_rate ?? 0));
@@ -127,9 +128,9 @@ function inOrder(verdicts) {
 const isGood = ({ clean, beyond_contract: isBeyond }) => clean && !isBeyond;
 
 /**
- * The rows of clean subjects to fold into one row. These are the clean subjects on the precision ladder (one
- * algorithm in several scalar types) or, if too many other clean subjects would remain, all clean subjects.
- * Nothing is folded if there are few clean subjects.
+ * The rows of clean subjects that are folded into one row. These are the clean subjects on the precision
+ * ladder (one algorithm in several scalar types) or, if too many other clean subjects would remain, all clean
+ * subjects. Nothing is folded if there are few clean subjects.
  */
 function foldedRows(rows) {
   const good = rows.filter(isGood);

@@ -17,8 +17,8 @@ const short = (x) =>
 /** "1 query", "1,234 queries" */
 const counted = (n, one, many) => `${integer(n)} ${n === 1 ? one : many}`;
 /**
- * Formats a ratio with three digits, or with more if a ratio below 1 would be rounded to 1. For a ratio in
- * the lowest bin of the histogram, only an upper bound is known, the bin's upper border.
+ * Formats a ratio with three digits, or with more if a ratio below 1 would be rounded to 1. If a ratio is in
+ * the lowest bin of the histogram, says only that it is below the bin's upper border.
  */
 function fraction(x) {
   const lowest = report.histogram_borders[1];

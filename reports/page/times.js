@@ -4,8 +4,8 @@
 
 const sortsOfTime = { "lower-bound": "lower bound", estimate: "estimate" };
 /**
- * The encoding with which a chart shows the two sorts of time. `looks` has a look for each sort, such as two
- * shapes or two patterns of dashes.
+ * The encoding by which a chart distinguishes lower bounds from estimates. `looks` has two entries, such as
+ * shapes or patterns of dashes: the first for lower bounds, the second for estimates.
  */
 const bySort = (looks) => ({ field: "sort", type: "nominal", title: "time", scale: { domain: Object.values(sortsOfTime), range: looks },
   legend: { symbolFillColor: color("--ink"), symbolStrokeColor: color("--ink") } });

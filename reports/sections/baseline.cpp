@@ -25,14 +25,14 @@ std::map<std::string, std::set<std::string>> facts_of(const Campaign& campaign) 
   std::map<std::string, std::set<std::string>> facts;
   for (const Run& run : campaign.runs)
     for (const auto& [name, value] : run.info) facts[name].insert(value);
-  facts.erase("again");  // a command that only repeats the other facts
+  facts.erase("again");  // its values, commands, say no more than the other facts
   return facts;
 }
 
 std::vector<ChangedFact> changed_facts(const Campaign& now, const Campaign& baseline) {
   auto facts = facts_of(now);
   auto earlier = facts_of(baseline);
-  for (const auto& [name, values] : earlier) facts[name];  // includes facts that only the baseline has
+  for (const auto& [name, values] : earlier) facts[name];  // adds the facts that only the baseline has
   const auto joined = [](const std::set<std::string>& values) {
     constexpr std::size_t most_shown = 6;
     return values.size() > most_shown ? fmt::format("{} values", values.size())
@@ -151,7 +151,7 @@ namespace {
 /// A line of `describe`: a title, such as "worse", and a text.
 struct Line {
   std::string title, subject;
-  const char* many;  ///< what several lines with this title and subject list, such as "rates"
+  const char* many;  ///< plural name of the changes that the lines list, such as "rates"
   std::string text;
 };
 

@@ -19,9 +19,8 @@ namespace nearmiss {
 
 /// Which code of a subject ran. If runs had different code, the values of all runs are joined with " | ".
 struct SubjectCode {
-  std::string
-      version;  ///< version of the plug-in or, for a built-in subject and the oracle, of nearmiss; "" without
-                ///< a version
+  /// The version of the plug-in or, for a built-in subject or the oracle, of nearmiss; "" if there is none.
+  std::string version;
   std::string build;  ///< "sha256 0123456789ab" for a plug-in, "commit 0123456" for a built-in subject
 
   /// "version 2", or the build if there is no version; "" if neither is known.
@@ -47,8 +46,8 @@ struct Sightings {
 struct ChangedSignatures {
   /// Ways to fail that are new, or more frequent than chance explains, in the order of Signature.
   std::vector<Signature> new_signatures = {};
-  /// Signatures that the baseline does not have, but that are not new, because chance explains them: they are
-  /// rare, and their subject already has failures of the same sort in the baseline.
+  /// Signatures that the baseline does not have, but that do not count as new, because chance explains them.
+  /// They are rare, and their subject already has failures of the same sort in the baseline.
   std::vector<Signature> unseen_signatures = {};
   double expected_unseen = 0;  ///< expected number of unseen signatures if nothing has changed
   /// Signatures that only the baseline has, if chance hardly explains that they are absent now.
@@ -92,9 +91,9 @@ struct ChangedSignatures {
 /// evidence that a signature is gone, because those cases and meshes may not have been asked again.
 ///
 /// @param before the sum of the baseline's statistics
-/// @param risk the probability of calling some signature new although none is new. The probability of calling
-/// some signature gone although none is gone is the same. Each comparison has an equal part of this risk
-/// (Bonferroni).
+/// @param risk the probability that at least one signature is called new if none is new. The probability that
+/// at least one signature is called gone if none is gone is the same. Each comparison has an equal part of
+/// this risk (Bonferroni).
 ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campaign> baseline,
                                      const Statistics& before, double risk);
 
@@ -124,8 +123,8 @@ struct ComparedRates {
 /// sum includes only the sweep's step with the most failures. Cases and meshes are left out, because they are
 /// no random samples.
 ///
-/// @param risk the probability of calling some rate changed although none has changed; each comparison has an
-/// equal part of this risk (Bonferroni)
+/// @param risk the probability that at least one rate is reported as changed if none has changed; each
+/// comparison has an equal part of this risk (Bonferroni)
 ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> baseline, double risk);
 
 /// A run time per query that differs from the expected time by more than chance explains.

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view beyond_the_bound = "false positives beyond the bound";
 constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's bound (no claim)";
 
-/// The rates of one subject, kind and family that are compared between campaigns.
+/// The rates of one subject, kind and family. Each rate is compared between campaigns.
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
@@ -28,8 +28,8 @@ std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& coun
           {"no answer", {counts.faults_total(), counts.queries}}};
 }
 
-/// Adds up the proportions of several campaigns: that of the last one, and each earlier proportion that
-/// differs from it by no more than chance explains.
+/// Adds up the proportions of several campaigns. Leaves out each proportion that differs from the last one by
+/// more than chance explains.
 Proportion like_the_last(const std::vector<Proportion>& all, double risk) {
   Proportion sum;
   for (const Proportion& each : all)
@@ -67,8 +67,8 @@ constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 /// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
-/// The proportions {now, before} of one rate, for several pairs of family and kind. The bits of `kinds` are
-/// the set of their kinds.
+/// The proportions {now, before} of one rate, for several pairs of family and kind. `kinds` has a bit for
+/// each kind in these pairs.
 struct FewFailures {
   std::vector<std::pair<Proportion, Proportion>> proportions;
   int kinds = 0;
@@ -104,7 +104,7 @@ std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) 
   for (const std::uint64_t few : fews)
     for (const auto& [name, failures] : pairs_with_few(pairs, few)) {
       const auto& proportions = failures.proportions;
-      if (proportions.size() == 1) continue;  // pairs_of_rates already compares single families
+      if (proportions.size() == 1) continue;  // pairs_of_rates already compares this pair
       ChangedRate sum{name.second,
                       name.first,
                       names_of_kinds(failures.kinds, ", "),

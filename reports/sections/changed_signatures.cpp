@@ -99,9 +99,9 @@ std::uint64_t failures(const Counts& counts, What what) {
   return sum;
 }
 
-/// The number of queries that could have shown a sort of failure: this number in the baseline (before), and
-/// its ratio now / before. The counters do not say in which families a signature was seen, so only the range
-/// of this ratio over the families is known.
+/// How many queries could have shown a sort of failure: their number in the baseline (`before`), and the
+/// ratio of their number in the campaign to `before`. The ratio differs between families, and the counters do
+/// not say in which families a signature was seen, so only the range of the ratio is known.
 struct Chances {
   std::uint64_t before = 0;  ///< number of random queries in the baseline that could have shown the failure
   double least = HUGE_VAL;   ///< the smallest ratio now / before over the families and kinds of the baseline
@@ -171,8 +171,8 @@ std::map<Sort, std::vector<std::uint64_t>> seen_by_sort(const Statistics& statis
   return seen;
 }
 
-/// Adds up the campaigns of a baseline. Leaves out a campaign if the signature was rarer in it than in the
-/// baseline's last campaign, by more than chance explains.
+/// Adds up the campaigns of a baseline. Leaves out each campaign in which the signature was rarer, by more
+/// than chance explains, than in the baseline's last campaign.
 Statistics without_rarer(const Signature& signature, std::span<const Campaign> baseline, double risk) {
   Statistics sum;
   for (const Campaign& each : baseline)
@@ -236,8 +236,8 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, Cha
   }
 }
 
-/// Names the first changed code of the subject after the code that last had the signature: "in version 2" or
-/// "since sha256 0123456789ab". Returns "" if the code has not changed or is not known.
+/// Names the subject's code that followed the last code with the signature: "in version 2" or "since sha256
+/// 0123456789ab". Returns "" if both codes are the same, or if one of them is not known.
 std::string fixed_text(const Sightings& seen, const SubjectCode& now) {
   const SubjectCode& then = seen.last_code;
   const SubjectCode& next = seen.next_code == SubjectCode{} ? now : seen.next_code;

@@ -22,9 +22,9 @@ namespace {
 constexpr std::size_t fewest_families = 8;
 /// Standard deviations of log(time now / time before) if nothing has changed. Their squares are added to the
 /// variance that follows from the spread among batches. For a family that is compared with the subject's
-/// other families, the standard deviation is estimated from their spread; it is at least `spread_of_family`.
-/// It is assumed to be `spread_of_subject` for a subject that is compared with other subjects, and
-/// `spread_of_machine` for the only subject of a campaign.
+/// other families, the standard deviation is estimated from the spread among these families, but is at least
+/// `spread_of_family`. For a subject that is compared with other subjects, it is assumed to be
+/// `spread_of_subject`; for the only subject of a campaign, `spread_of_machine`.
 constexpr double spread_of_family = 0.05;
 constexpr double spread_of_subject = 0.08;
 constexpr double spread_of_machine = 0.15;
@@ -35,7 +35,7 @@ bool is_whole(const CountsKey& key) { return key.family == ChangedTime::all_fami
 
 double square(double x) { return x * x; }
 
-/// The median. For an even number of values, it is the one of the two middle values that is nearer to 0.
+/// The median; for an even number of values, whichever of the two middle values is nearer to 0.
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const double low = values[(values.size() - 1) / 2];
@@ -64,7 +64,7 @@ double usual_variance(std::vector<double> values) {
 
 struct Variance {
   double value = 0;
-  double weight = 0;  ///< the square of `value` divided by the estimate's degrees of freedom
+  double weight = 0;  ///< square(value) / (degrees of freedom of the estimate)
 
   Variance() = default;
   Variance(double v, double degrees_of_freedom) : value(v), weight(square(v) / degrees_of_freedom) {}
@@ -128,13 +128,14 @@ LogTimes log_times(const Statistics& statistics) {
 /// Logarithms of the ratios time now / time before, one for each earlier campaign. Each logarithm is the sum
 /// of two parts, `common` and `own`.
 struct Ratios {
-  std::vector<double> common = {};  ///< the part shared with other times, as on a busy machine
+  std::vector<double> common = {};  ///< the part that other times share, for example on a busy machine
   std::vector<double> own = {};     ///< the part that other times do not share
   Variance sampling = {};           ///< sum of the variances of the earlier times
 
   [[nodiscard]] double change() const { return mean(own); }
   [[nodiscard]] double campaigns() const { return static_cast<double>(own.size()); }
-  /// The variance of (log time now - mean of the earlier log times), divided by that of a single log time.
+  /// The variance of (log time now - mean of the earlier log times), divided by the variance of a single log
+  /// time.
   [[nodiscard]] double of_difference() const { return 1 + 1 / campaigns(); }
 };
 
@@ -214,8 +215,8 @@ class Times {
     return sum;
   }
 
-  /// The additional variance of a change for a whole subject, or for a subject with too few families to
-  /// estimate the variance from their spread.
+  /// The additional variance of the change of a subject as a whole. Also that of a family's change, if the
+  /// subject has too few families to estimate the variance from the spread among them.
   [[nodiscard]] Variance assumed_spread(const Ratios& ratios) const {
     const double spread = families_.size() > 1 ? spread_of_subject : spread_of_machine;
     return {square(spread) * ratios.of_difference() / 2, HUGE_VAL};

@@ -60,8 +60,8 @@ struct Row {
 bool is_everywhere(const RightRange& range) { return range.exponents && range.elsewhere == FactorCounts(); }
 
 /// The range of a factor that all kinds have in common; nothing if their ranges differ or if no kind has a
-/// range. The ranges of two kinds also count as equal if the subject is right at all values for both kinds. A
-/// kind with too few queries is left out, unless all kinds have too few.
+/// range. If the subject is right at all values of two kinds, the ranges of these kinds count as equal, even
+/// if they differ. A kind with too few queries is left out, unless all kinds have too few.
 std::optional<RightRange> common(const Ranges& ranges, const std::string& factor) {
   std::optional<RightRange> all;
   const bool has_enough = std::ranges::any_of(

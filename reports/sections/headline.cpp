@@ -77,7 +77,8 @@ std::string group_text(const std::vector<const SubjectVerdict*>& group) {
 bool is_unjudged(const SubjectVerdict& verdict) { return verdict.failures.contains(FailureKind::unjudged); }
 
 /// Says which subjects failed, which were asked nothing, and which did not fail. If only one subject failed,
-/// says how it failed. If several failed, says in which class of queries, the least exotic class first.
+/// says how it failed. If several subjects failed, groups them by the least exotic class of queries in which
+/// they failed.
 std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   std::map<QueryClass, std::vector<const SubjectVerdict*>> failed;
   std::vector<std::string> unjudged;

@@ -29,7 +29,7 @@ Headline headline(const Statistics& statistics, const std::optional<Changes>& si
 /// A list with an object for each subject, in the order of names. An object has
 ///   the verdict on the subject, and a list of its failures, the gravest first;
 ///   the subject's place on the ladder of precisions (LadderPlace);
-///   its rates: those of all its queries, and those of the families of each class;
+///   its rates, over all its queries and over the families of each class;
 ///   its run times, and the number of its changes since the baseline;
 ///   the index in `findings` of its simplest failure, or null.
 nlohmann::ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,

@@ -41,9 +41,9 @@ struct Rung : LadderPlace {
   [[nodiscard]] double farthest() const { return part() * claimed(); }
 };
 
-/// The farthest distance as a power of ε, fitted to one point (ε, farthest distance) for each scalar of an
-/// algorithm: a line through the logarithms, by least squares. A fit uses the queries of one origin, or of
-/// all origins.
+/// The farthest distance as a power of ε. The fit is a line through the logarithms of ε and of the farthest
+/// distance, by least squares, with one point for each scalar of an algorithm. A fit uses the queries of one
+/// origin, or of all origins.
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
@@ -63,7 +63,8 @@ double claimed_distance(const std::string& algorithm, int exponent) {
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
-/// Whether Rung::part() is known. Below the histogram's lowest border, only an upper bound of it is known.
+/// Whether Rung::part() is known. If it is below the histogram's lowest border, only an upper bound of it is
+/// known.
 bool is_measured(const Rung& rung) { return rung.part() >= Histogram::border(1); }
 
 bool is_ladder(const std::vector<Rung>& all) {
@@ -105,7 +106,7 @@ namespace {
 
 /// The rungs (subjects of the precision ladder) of wang and wang-tight, one for each scalar in the
 /// statistics, by ascending precision. Counts only queries of the origin `only` (family.hpp), or of all
-/// origins if it is "".
+/// origins if `only` is "".
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view only = "") {
   std::map<std::string, CountsSum> by_subject;
   // The fits test the exponent of ε in the bound 41 B ε^¼ (B: the size of the pair), which holds for
@@ -147,8 +148,8 @@ std::pair<double, double> slope(const std::vector<LogPoint>& points) {
   return {xy / xx, std::sqrt(residual / (n - 2) / xx)};
 }
 
-/// Fits those rungs of an algorithm that have ε from 2^-127 to 2^-23 and a measured farthest false positive
-/// (is_measured). Nothing for fewer than three values of ε.
+/// Fits a line to those rungs of an algorithm whose ε is from 2^-127 to 2^-23 and whose farthest false
+/// positive is_measured(). Nothing for fewer than three values of ε.
 std::optional<Fit> fit(const std::vector<Rung>& rungs, const std::string& algorithm) {
   std::vector<LogPoint> points;
   std::set<int> precisions;

@@ -64,8 +64,8 @@ std::string late_text(const CountsSum& sum) {
   return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.late);
 }
 
-/// The number of sound times for which the rounded step to the time has contact; "-" if no time was promised
-/// to be a lower bound.
+/// The number of sound times with a rounded step that has contact (Counts::committed); "-" if no time was
+/// promised to be a lower bound.
 std::string committed_text(const CountsSum& sum) {
   return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.committed);
 }

@@ -28,8 +28,8 @@ struct Measure {
   std::string_view key;              ///< in report.json
   Value (*value)(const CountsSum&);  ///< computes the value that files show
   std::string_view heading{};        ///< in tables on the terminal
-  std::string_view csv_after{};      ///< counter before the measure in CSV files; "" if they lack the measure
-  std::string (*text)(const CountsSum&) = nullptr;  ///< on the terminal; if null, the text of the value
+  std::string_view csv_after{};      ///< CSV files have the measure after this counter; "" if they lack it
+  std::string (*text)(const CountsSum&) = nullptr;  ///< text on the terminal; if null, that of `value`
 };
 
 /// The measures that report.json shows for every sum, in the order of report.json.

@@ -10,9 +10,8 @@
 
 namespace nearmiss {
 
-/// For each subject, a line with the verdict on it (verdicts.hpp); for each pair of versions, a line; then
-/// the number of certified truths, and the tolerances that were measured. Only the failures in `failing`
-/// count.
+/// The lines of the verdicts on subjects (verdicts.hpp), a line for each pair of versions, the number of
+/// certified truths, and the tolerances that were measured. Only the failures in `failing` count.
 std::string summary_lines(const Statistics& statistics, const Failures& failing = usual_failures());
 /// A longer summary. Its parts are, in this order:
 ///   the lines of summary_lines on subjects and versions

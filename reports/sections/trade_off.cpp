@@ -26,7 +26,7 @@ namespace {
 /// Run time and error of a subject, over the kinds and families that all compared subjects were asked about.
 struct TradeOff {
   std::string subject;
-  /// The sum over the families that were timed, from which run times and rates are computed. It leaves out
+  /// The sum over the families that were timed. Run times and rates are computed from this sum. It leaves out
   /// the families of directed searches, which are not timed, and whose rates have no meaning.
   CountsSum timed;
   CountsSum all;

@@ -228,10 +228,10 @@ std::string unjudged_text(const Counts& counts) {
   return "NO ANSWER IN TIME, " + slow_text(counts);
 }
 
-/// How often a failure happened, for each class of families. Queries have classes of their own. If the least
-/// exotic failed query and the least exotic family with failures differ in class, the text begins with the
-/// failed queries of the least exotic class: "3 ordinary vt collisions in extreme families; in all 40 of
-/// 5,000 in extreme families".
+/// How often a failure happened, for each class of families. A query may be of another class than its family.
+/// If the least exotic class of the failed queries is not that of the families with failures, the text begins
+/// with the failed queries of their least exotic class: "3 ordinary vt collisions in extreme families; in all
+/// 40 of 5,000 in extreme families".
 std::string failed_text(const OfSubject& subject, const FailureInfo& failure) {
   const auto in_queries = class_of_queries(subject, failure);
   if (!in_queries || *in_queries == least_exotic_part(subject.parts, failure)->first)

@@ -22,7 +22,7 @@ struct SubjectVerdict {
   std::map<FailureKind, std::string> said;
   QueryClass least_exotic = QueryClass::unclassified;  ///< the least exotic class with a failure that counts
 
-  /// In words, the gravest failure that counts and was seen in the class `least_exotic`; "" if no failure
+  /// The gravest failure that counts and was seen in the class `least_exotic`, in words; "" if no failure
   /// counts.
   std::string first = {};
 };

@@ -90,7 +90,7 @@ ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pair
     expected += both * static_cast<double>(now.total) / static_cast<double>(now.total + before.total);
     seen += static_cast<double>(now.count);
   }
-  if (std::abs(seen - expected) < 1) return {};  // too near for the theorem, so both p-values are 1
+  if (std::abs(seen - expected) < 1) return {};  // the theorem does not apply, so both p-values are 1
   const auto [of, successes] = scaled(trials, seen);
   return tails(Binomial(of, expected / trials), std::round(successes), 0.0);
 }

@@ -42,7 +42,7 @@ struct Proportion {
 };
 
 /// The one-sided p-values of a test of two proportions, `now` and `before`. They are probabilities under the
-/// assumption that both have the same rate.
+/// assumption that both proportions have the same rate.
 struct ExactTest {
   double more = 1;  ///< probability of a count at least as large as now.count
   double less = 1;  ///< probability of a count at most as large as now.count

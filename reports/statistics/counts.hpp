@@ -43,9 +43,9 @@ void keep_farthest(std::vector<FarCase>& kept, double ratio, const Query& query,
 struct TimeError {
   double early = 0;  ///< t* - time if that is positive, as precise as Outcome::ratio
   double after = 0;  ///< time - t* if that is positive, as precise as Outcome::ratio
-  /// How early the time is, measured as a distance, divided by B, the size of the pair, and rounded. The
-  /// distance is an upper bound of how far a vertex of one primitive moves relative to a vertex of the other
-  /// between the time and t*.
+  /// How early the time is, measured as a distance: an upper bound of how far a vertex of one primitive moves
+  /// relative to a vertex of the other between the time and t*. The distance is divided by B, the size of the
+  /// pair, and rounded.
   double travelled = 0;
   bool promised = false;  ///< the subject promises that the time is a lower bound
   bool late = false;      ///< contact, or a distance below the separation h, before a promised lower bound
@@ -64,9 +64,9 @@ struct TimeError {
 struct Outcome {
   Verdict verdict;
   bool collision = false;
-  /// For a false positive: the certified smallest distance over [0, 1], minus the separation, divided by the
-  /// claimed bound, rounded up within its Histogram bin. The relative error is at most 1/1000 if the ratio is
-  /// above the first bin and large enough for Counts::farthest.
+  /// For a false positive: how far the certified smallest distance over [0, 1] exceeds the separation,
+  /// divided by the claimed bound. The ratio is rounded up within its Histogram bin. The relative error is at
+  /// most 1/1000 if the ratio is above the first bin and large enough for Counts::farthest.
   double ratio = 0;
   bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
   double bound = 0;            ///< the claimed bound, if it is refuted

@@ -14,11 +14,11 @@ namespace nearmiss {
 /// The most extreme query that was found for one tolerance, or for one group of tests.
 struct Extreme {
   enum class Of : std::uint8_t {
-    /// The largest factor such that the algorithm misses a collision if the tolerance is multiplied by it; 0
-    /// if there is none.
+    /// The largest factor such that the algorithm misses a collision if the tolerance is multiplied by the
+    /// factor; 0 if there is no such factor.
     accepting_tolerance,
     /// For a tolerance that keeps degenerate primitives out: the smallest factor such that the algorithm
-    /// misses a collision if the tolerance is multiplied by it; infinity if there is none.
+    /// misses a collision if the tolerance is multiplied by the factor; infinity if there is no such factor.
     keeping_tolerance,
     /// The largest ratio distance / bound of the false positives of a group of tests; 0 without false
     /// positives.
@@ -27,7 +27,7 @@ struct Extreme {
 
   Of of{};
   std::string name;           ///< name of the tolerance or tests
-  double value = 0;           ///< factor on the tolerance (the others as in the paper), or distance / bound
+  double value = 0;           ///< factor of the tolerance (the others are the paper's); or distance / bound
   Query query;                ///< meaningless if nothing was found
   std::string provenance;     ///< origin of the query; empty if nothing was found
   std::uint64_t queries = 0;  ///< number of collisions or false positives that were tried

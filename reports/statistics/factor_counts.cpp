@@ -15,8 +15,8 @@ double ratio(std::uint64_t part, std::uint64_t of) {
   return static_cast<double>(part) / static_cast<double>(of);
 }
 
-/// Whether common_factors() prefers a to b: because a has the larger lift or, if the lifts are equal, by the
-/// rules for ties in factor_counts.hpp.
+/// Whether common_factors() prefers a to b. It prefers the larger lift; if the lifts are equal, it follows
+/// the rules for ties in factor_counts.hpp.
 bool is_better(const CommonFactors& a, const CommonFactors& b) {
   const auto merit = [](const CommonFactors& each) {
     const bool is_single = each.key.values.find(' ') == std::string::npos;
@@ -111,9 +111,9 @@ FactorCounts sum_of(std::span<const Level> levels) {
   return sum;
 }
 
-/// The sum of the answers at five successive values, chosen so that their rate of false positives is lowest.
-/// Ignores values with misses, because a CCD that misses everything has no false positives. If fewer than
-/// five values remain, returns the sum over all of them.
+/// Chooses the five successive values with the lowest rate of false positives, and returns the sum of their
+/// answers. Ignores values with misses, because a CCD that misses everything has no false positives. If fewer
+/// than five values remain, returns the sum over all of them.
 FactorCounts best_answers(std::vector<Level> levels) {
   constexpr std::size_t most = 5;
   std::erase_if(levels, [](const Level& each) { return each.misses; });
@@ -126,8 +126,9 @@ FactorCounts best_answers(std::vector<Level> levels) {
   return best;
 }
 
-/// Whether the share of reported queries, among those that do not collide, is above three quarters; or
-/// whether it exceeds the share in `best` by more than a quarter and by more than chance explains.
+/// Whether the rate of false positives in `counts` is above three quarters (and `counts` has at least four
+/// queries without a collision), or exceeds the rate in `best` by more than a quarter and by more than chance
+/// explains.
 bool reports_more(const FactorCounts& counts, const FactorCounts& best) {
   constexpr double more = 0.25, most = 0.75;
   const double rate = false_positive_rate(counts);
@@ -145,7 +146,8 @@ std::vector<Level> levels_of(const Powers& powers) {
   return levels;
 }
 
-/// The longest run of neighbouring values at which the subject is right, or the first of several such runs.
+/// The longest sequence of neighbouring values at which the subject is right; the first one if several are
+/// equally long.
 std::span<const Level> longest_run(std::span<const Level> levels) {
   std::span<const Level> longest;
   for (std::size_t first = 0; first < levels.size();) {
@@ -160,8 +162,8 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
 }
 
 /// Whether it may be chance that a subject misses none of the `collisions` at some consecutive values.
-/// `outside` has the values on one side of these, nearest first. Tries several rates of misses: that of the
-/// nearest value, that of the nearest two values together, and so on. False if the nearest value has no
+/// `outside` has the values on one side of these, nearest first. Tries the rate of misses of the nearest
+/// value, that of the nearest two values together, and so on. Returns false if the nearest value has no
 /// misses.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {

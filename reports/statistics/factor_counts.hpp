@@ -81,9 +81,9 @@ struct RightRange {
   std::string subject;
   Kind kind{};
   std::string factor;
-  /// The first and the last x of the longest run of neighbouring values at which the subject is right.
-  /// Nothing if there is no such run, if the misses next to it are so rare that chance explains the run, or
-  /// if `too_few`.
+  /// The first and the last x of the longest sequence of neighbouring values at which the subject is right.
+  /// Nothing if there is no such sequence or it has no collisions, if misses next to the sequence are so rare
+  /// that it may lack misses by chance, or if `too_few`.
   std::optional<std::pair<int, int>> exponents;
   bool too_few = false;    ///< whether the values have fewer than two collisions on average
   FactorCounts elsewhere;  ///< the answers at all other values

@@ -26,8 +26,9 @@ std::string shown_family(std::string_view family);
 /// family itself.
 std::string_view origin(std::string_view family);
 
-/// The name that all steps (NAME@VALUE) of a sweep share, because the steps make the same random draws and
-/// differ only in the value of the parameter. For a family that is no step of a sweep, the family's own name.
+/// A name for the random draws of a family. The steps (NAME@VALUE) of a sweep make the same draws and differ
+/// only in the value of the parameter, so they get the same name. A family that is no step of a sweep gets
+/// its own name.
 std::string draws_of(std::string_view family);
 
 /// The largest number of a subject's queries that share one random draw: the number of steps of the longest

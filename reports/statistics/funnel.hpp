@@ -15,7 +15,7 @@ namespace nearmiss {
 /// What becomes of a pair. Subjects are asked only about pairs with the fate `asked`; other pairs are left
 /// out.
 enum class PairFate : std::uint8_t {
-  boxes_apart,     ///< the boxes that the primitives sweep do not meet
+  boxes_apart,     ///< the swept boxes of the primitives do not meet
   share_vertex,    ///< the primitives have a vertex in common
   at_rest,         ///< the primitives are at rest relative to each other; a static test decides
   in_translation,  ///< the primitives are in translation relative to each other; a linear test decides

@@ -75,8 +75,8 @@ using BatchesByFamily = std::map<std::pair<Kind, std::string>, BatchTimes>;
 void add_up(BatchesByFamily& own, const BatchesByFamily& other);
 
 struct SubjectTimes {
-  BatchesByFamily batches;        ///< by kind and family, because a median means something only for batches
-                                  ///< of similar queries
+  BatchesByFamily batches;        ///< by kind and family, because a median means something only if the
+                                  ///< batches have similar queries
   std::uint64_t nanoseconds = 0;  ///< total over all timed queries
   TimeHistogram each;             ///< times of a sample of the queries, timed one by one
   std::vector<SlowCase> slowest;  ///< the slowest queries of `each`, at most slow_cases, slowest first

@@ -26,8 +26,8 @@ namespace {
 /// process that is told to stop does so within two seconds.
 constexpr int patience_ms = 1500;
 
-/// Throws Error if the journal beside a store names another file: SQLite would delete that file when it
-/// rolls back an unfinished change. Journals that nearmiss writes name no other file.
+/// Throws Error if the journal beside a store names another file, because SQLite would delete that file when
+/// it rolls back an unfinished change. Journals that nearmiss writes name no other file.
 void expect_own_journal(const fs::path& file) {
   constexpr std::array<char, 8> magic{'\xd9', '\xd5', '\x05', '\xf9', '\x20', '\xa1', '\x63', '\xd7'};
   const fs::path journal = log_of(file, "-journal");
@@ -85,7 +85,7 @@ FileLock::~FileLock() {
 }
 
 fs::path log_of(const fs::path& file, std::string_view ending) {
-  fs::path log = weakly_canonical(file);  // without links, because SQLite follows them
+  fs::path log = weakly_canonical(file);  // resolves links, as SQLite does
   log += ending;
   return log;
 }
@@ -106,10 +106,10 @@ Connection::Connection(const fs::path& file, int flags)
 
 Connection::~Connection() {
   try {
-    db.setBusyTimeout(patience_ms / 3);       // a shorter wait, because all results are already saved
-    db.exec("PRAGMA journal_mode = DELETE");  // leaves one plain file, for readers without write permission
+    db.setBusyTimeout(patience_ms / 3);       // waits less, because all results are already saved
+    db.exec("PRAGMA journal_mode = DELETE");  // removes the log, for readers without write permission
   } catch (const SQLite::Exception&) {
-    return;  // nothing is lost, because the log stays next to the file
+    return;  // the log stays next to the file, so nothing is lost
   }
 }
 

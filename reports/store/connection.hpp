@@ -14,7 +14,7 @@ namespace nearmiss {
 class FileLock {
  public:
   /// Takes the lock. Throws Error if another process holds it, if it cannot be made, or if the file has a
-  /// second name (a hard link): another process could lock the file separately under that name.
+  /// second name (a hard link), under which another process could lock the file separately.
   explicit FileLock(const std::filesystem::path& file);
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
@@ -30,8 +30,8 @@ class FileLock {
 /// remains.
 std::filesystem::path log_of(const std::filesystem::path& file, std::string_view ending);
 
-/// Opens a store to read it. Opening changes the store only if a process was killed while it wrote the store
-/// itself, not the log: SQLite then uses the journal beside the store to roll back the unfinished change.
+/// Opens a store to read it. Usually, opening changes nothing. But if a process was killed while it wrote the
+/// store itself, not the log, SQLite uses the journal beside the store to roll back the unfinished change.
 SQLite::Database open_to_read(const std::filesystem::path& file);
 
 /// A connection for writing.

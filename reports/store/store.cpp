@@ -176,8 +176,8 @@ void check_structure(SQLite::Database& db) {
   if (found != "ok") throw Damage(found.substr(0, found.find('\n')));
 }
 
-/// Whether an error while reading means that the contents of a file are damaged, not that the file cannot be
-/// opened.
+/// Whether an error while reading a file means that its contents are damaged, and not, for example, that the
+/// file cannot be opened.
 bool is_damage(const std::exception& error) {
   if (dynamic_cast<const Damage*>(&error) != nullptr) return true;
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
@@ -329,8 +329,8 @@ void write_campaign(const Campaign& campaign, const fs::path& file) {
   PartFile part(file);
   naming(file, [&] {
     SQLite::Database db(part.path().string(), SQLite::OPEN_READWRITE);
-    // No other process sees the file yet, so SQLite can keep its journal in memory: the disk may be nearly
-    // full.
+    // The disk may be nearly full, so SQLite keeps its journal in memory. This is safe, because no other
+    // process sees the file yet.
     db.exec("PRAGMA journal_mode = MEMORY; PRAGMA synchronous = FULL;");
     Save save(db);
     write_campaign(save, campaign);

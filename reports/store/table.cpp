@@ -107,8 +107,8 @@ class Limits {
   int failed_ = 0;
 };
 
-/// Passes the intact rows of a plain table to `take`. Calls `check`, if given, before each row. Tries the
-/// row ids 1 to `last`: n rows have the ids 1 to n, because nearmiss never removes a single row.
+/// Passes the intact rows of a plain table to `take`. Calls `check`, if given, before each row. Tries the row
+/// ids from 1 to `last`. The ids have no gaps, because nearmiss removes either all rows of a table or none.
 Contents read_intact(SQLite::Database& db, const std::string& table, std::uint64_t last, const Take& take,
                      const Check& check = {}) {
   Contents found;

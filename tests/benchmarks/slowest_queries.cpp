@@ -33,7 +33,7 @@
 namespace nearmiss {
 namespace {
 
-/// A part of the oracle's work, which `work` does for a query that is already decided.
+/// A part of the oracle's work. The function `work` does this part for a query that is already decided.
 struct Part {
   std::string_view name;
   std::string_view about;

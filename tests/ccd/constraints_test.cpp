@@ -26,8 +26,8 @@ TEST(RoundingErrors, AreThePapersAsPrinted) {
   for (std::size_t i = 0; i < members.size(); ++i) EXPECT_EQ(printed.*members[i], expected[i] * 0x1p-52) << i;
 }
 
-// Let x = k u. (1 + u)^k - 1 is less than e^x - 1 = x + x²/2 + x³/6 + ..., by at most x u. rounding_error()
-// uses x + x²/2 + x³/4 + ... in place of e^x - 1.
+// Let x = k u. Then e^x - 1 = x + x²/2 + x³/6 + ... exceeds (1 + u)^k - 1, by at most x u. The function
+// rounding_error() replaces e^x - 1 by x + x²/2 + x³/4 + ...
 TEST(RoundingErrors, OfTheTheoremAreTightToSecondOrder) {
   for (const double u : {0x1p-10, 0x1p-24, 0x1p-52})
     for (const int k : {1, 8, 40}) {

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double eps = 0x1p-52;
 
-/// A pair with B = 1, the bound of its relative positions and velocities, and W = 1, the bound of the
-/// velocities alone. Its vectors are not used.
+/// A pair with B = 1, which bounds relative positions and velocities, and W = 1, which bounds only the
+/// velocities. The vectors of the pair are not used.
 Pair<Kind::vertex_triangle, double> unit_pair() {
   Pair<Kind::vertex_triangle, double> pair;
   for (Moving<double>* vector : {&pair.p, &pair.q, &pair.r}) vector->xv.setZero();
@@ -23,8 +23,8 @@ Pair<Kind::vertex_triangle, double> unit_pair() {
   return pair;
 }
 
-/// A triangle with ‖q‖₁ = ‖r‖₁ = 1 for its edges q and r, and ‖N‖₁ = 1 for its normal N, and a vertex whose
-/// first weight is `weight`.
+/// A triangle and a vertex whose first weight is `weight`. The triangle's edges have ‖q‖₁ = ‖r‖₁ = 1, and its
+/// normal has ‖N‖₁ = 1.
 template <class Wide = double>
 Configuration<Kind::vertex_triangle, double, Wide> with_weight(double weight) {
   Configuration<Kind::vertex_triangle, double, Wide> configuration(unit_pair(), 0.5);
@@ -36,7 +36,7 @@ Configuration<Kind::vertex_triangle, double, Wide> with_weight(double weight) {
   return configuration;
 }
 
-/// A linear F, the coplanarity cubic, with this slope and with the root 1/2.
+/// The coefficients of a coplanarity cubic F that is linear, with this slope and with the root 1/2.
 Cubic<double> line(double slope) { return {0, 0, slope, -slope / 2}; }
 
 /// Tolerances with μ = 2^-40, the limit for |F| at a computed root, and with `h`, half the width of an
@@ -92,7 +92,7 @@ TEST(VeCulling, TheFixedIntervalLeavesAWeightRoomForItsMovementAndForRounding) {
   }
 }
 
-// At a distance h from its root, a line has |F| = slope h.
+// If F is a line, |F| is slope * h at a distance h from its root.
 TEST(VeCulling, TheFixedIntervalBracketsARootOnlyAboveTheThreshold) {
   for (const double h : {0x1p-26, 0x1p-10}) {
     const double slope = threshold / h;

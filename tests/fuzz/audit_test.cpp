@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// The names of the rows that have a property, in both tables of rounding constants.
+/// The names of those rows of both tables of rounding constants that have a property.
 std::vector<std::string_view> names_of(bool (RoundingConstant::*property)() const) {
   std::vector<std::string_view> names;
   for (const auto& rows : {rounding_bounds(), rounding_consequences()})
@@ -24,8 +24,8 @@ std::vector<std::string_view> names_of(bool (RoundingConstant::*property)() cons
   return names;
 }
 
-// The paper assumes that relative positions of edges are within B, the pair's bound. All constants that
-// depend on this assumption are too small, except δ, the constant of a squared distance.
+// The paper assumes that B, the pair's bound, also bounds the relative positions of two edges at any time.
+// All constants that depend on this assumption are too small, except δ, the constant of a squared distance.
 TEST(Audit, FindsWhatThePaperHasTooSmall) {
   EXPECT_THAT(names_of(&RoundingConstant::is_too_small),
               ElementsAre("VE of EE: weight", "VE of EE: barycentric test", "EE: weight, far p",

@@ -27,7 +27,7 @@ namespace {
 
 using testing::answers_of;
 
-constexpr std::size_t batch = 100'000;  // the `batch` of the detectors in batches.c
+constexpr std::size_t batch = 100'000;  // the `batch` of most detectors in batches.c
 
 /// A detector of batches.c. The time limit is so long that even on a busy machine, batches are not divided.
 std::unique_ptr<Subject> wanting(const std::string& detector, std::uint64_t bytes = std::uint64_t{1} << 30) {

@@ -150,7 +150,7 @@ Query reached_at(double time, double later = 0) {
 TEST(Classify, ContactNearlyAtTheStartIsDegenerate) {
   EXPECT_TRUE(is_degenerate(reached_at(1e-6)));
   EXPECT_TRUE(is_degenerate(reached_at(1e-6, -0x1p-52)));
-  EXPECT_TRUE(is_ordinary(reached_at(1e-6, 0x1p-53)));  // at a time that is no double
+  EXPECT_TRUE(is_ordinary(reached_at(1e-6, 0x1p-53)));  // the time of contact is no double
   EXPECT_TRUE(is_ordinary(reached_at(above(1e-6))));
 }
 
@@ -197,7 +197,7 @@ TEST(Classify, WithASeparationEdgesComeNearestInGeneralPositionToo) {
   for (const double h : {least, 1e-310, 1e-300, 1e-100, 0.125})
     EXPECT_TRUE(is_ordinary(with_separation(on_edge, h))) << h;
   for (const double h : {1e300, std::numeric_limits<double>::max()})
-    EXPECT_TRUE(is_degenerate(with_separation(on_edge, h))) << h;  // within h from the beginning
+    EXPECT_TRUE(is_degenerate(with_separation(on_edge, h))) << h;  // starts closer than h
 }
 
 TEST(Classify, TheFirstRuleThatHoldsIsNamed) {

@@ -62,8 +62,8 @@ TEST(CommittedStep, MayTouchOnTheWayOrAtItsEnd) {
   EXPECT_EQ(end_of(*committed_step(near, 0.375, false)), StepEnd::touches);
 }
 
-/// A subject that reports every collision. The subject's time is the largest double or float that is not
-/// after the earliest time t*, minus `early`.
+/// A subject that reports every collision. The subject's time is the earliest time t*, rounded down to a
+/// double, minus `early`, but at least 0. If `in_float`, the time is then rounded down to a float.
 std::unique_ptr<Subject> sharp(bool in_float, double early, TimeSort sort) {
   const auto decide = [=](const Query& query) {
     Query rounded = query;

@@ -20,8 +20,8 @@ using testing::at_rest;
 
 constexpr std::uint64_t seed = 5;
 
-/// Whether the family makes queries with these levels (values of its factors) such that the primitives touch
-/// exactly, without rounding, at a time in [0, 1].
+/// Whether the primitives touch at a time in [0, 1] in the queries that the family makes with these levels
+/// (values of its factors). The contact is exact, without rounding.
 bool touches(const Levels& levels) {
   return levels.when() != When::outside && levels.where() != Where::outside;
 }

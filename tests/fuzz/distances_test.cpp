@@ -114,7 +114,7 @@ QuestionPlan usual(std::uint64_t cases) {
 
 QuestionResults<DistanceQuestion> measured(const std::string& name, const QuestionPlan& plan) {
   Subjects subjects;
-  subjects.push_back(make_subject(name));  // faster than in a process of its own
+  subjects.push_back(make_subject(name));  // in this process, which is faster
   return QuestionTrial<DistanceQuestion>(subjects, plan, Stop::never()).run([](std::uint64_t) {});
 }
 
@@ -218,7 +218,7 @@ TEST(DistanceTrial, ASubjectThatGivesNoDistanceIsNotAsked) {
   const auto wang = make_subject("wang");
   EXPECT_FALSE(wang->gives_distance(Kind::edge_edge));
   EXPECT_EQ(wang->ask_distance(crossing).fault, Fault::not_asked);
-  EXPECT_TRUE(measured("wang", usual(100)).has_failed());  // fails, because nothing was asked
+  EXPECT_TRUE(measured("wang", usual(100)).has_failed());  // the trial fails, because it asked nothing
 }
 
 }  // namespace

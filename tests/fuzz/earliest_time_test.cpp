@@ -21,8 +21,8 @@ namespace {
 double above(double x) { return std::nextafter(x, 2); }
 double below(double x) { return std::nextafter(x, 0); }
 
-/// Times that are hard to compare with t*, the earliest time, and some others. `known` and `narrow` enclose
-/// t*.
+/// Times to compare with t*, the earliest time. Some are hard to compare with it: the ends of `known` and
+/// `narrow`, which enclose t*, and the doubles next to these ends.
 std::vector<double> times_around(const Enclosure& known, const Enclosure& narrow) {
   std::vector<double> times{0, 1, 0.5};
   for (const double end : {known.lo, known.hi, narrow.lo, narrow.hi})

@@ -69,8 +69,9 @@ TEST(FindingCertificate, OfARefutedBoundIsThatTheyAreFartherApart) {
             statement_about(with_separation(apart, std::nextafter(1.5, 2)), "apart", {}, true));
 }
 
-/// A subject that takes separations, promises a time, and claims a bound of 0. It reports no collision for a
-/// third of the queries, fails to answer a third, and reports a collision at t = 1 for a third.
+/// A subject that takes separations, promises that its times are lower bounds, and claims a bound of 0. It
+/// reports no collision for a third of the queries, fails to answer a third, and reports a collision at t = 1
+/// for a third.
 Subjects often_wrong() {
   const auto answer = [](const Query& query) {
     const auto third = static_cast<int>(std::fmod(std::abs(query.x[0]) * 1e6, 3));

@@ -82,7 +82,7 @@ TEST(MpfrFloat, AreThoseOfTheScope) {
   EXPECT_EQ(MpfrFloat(1) + 0x1p-25, MpfrFloat(1));
   EXPECT_EQ(ilogb(MpfrFloat(-5)), 2);
   EXPECT_EQ(static_cast<double>(abs(MpfrFloat(-0.1))), 0x1.9999ap-4);
-  EXPECT_EQ(static_cast<double>(MpfrFloat(1) / 3), 0x1.55556p-2);  // rounded to nearest, as all operations
+  EXPECT_EQ(static_cast<double>(MpfrFloat(1) / 3), 0x1.55556p-2);  // rounds to nearest, as all operations do
   EXPECT_EQ(static_cast<double>(MpfrFloat(1) - 0x1.8p-20), 1 - 0x1p-19);
   EXPECT_EQ(static_cast<double>(MpfrFloat(3) * 0x1.55556p-2), 1);
   EXPECT_EQ(static_cast<double>(sqrt(MpfrFloat(2))), 0x1.6a09ep0);

@@ -92,7 +92,7 @@ std::array<long double, 3> gap(const Query& query, const Place& place) {
 bool is_zero(const std::array<long double, 3>& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
 TEST(Place, JoinedPointsAreOneWhereDoublesAllowIt) {
-  const Place place{.alpha = 0.25, .beta = 0.25, .time = 0.5};  // all shares are powers of two
+  const Place place{.alpha = 0.25, .beta = 0.25, .time = 0.5};  // all weights are powers of two
   for (std::uint64_t i = 0; i < 100; ++i) {
     const Query query = make_query(find_family("small-integer"), 1, 2 * i);
     for (const int point : movable_points(query.kind, place)) {

@@ -27,7 +27,7 @@ namespace {
 using testing::MadeUpSubject;
 using testing::WatchedSubject;
 
-/// The result of shrinking the query, where the queries that fail are those for which `fails` returns true.
+/// The result of shrinking a query. A query counts as failing if `fails` returns true for it.
 Query shrunk_while(const Query& query, const std::function<bool(const Query&)>& fails) {
   return nearmiss::shrunk(query, [&](std::span<const Query> queries) -> std::optional<std::size_t> {
     const auto first = std::find_if(queries.begin(), queries.end(), fails);
@@ -202,7 +202,7 @@ TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   for (Finding finding : missed_by_basic()) {
     shrinker.shrink(finding);
     EXPECT_TRUE(finding.is_shrunk);
-    searches += 2 + kinds_of_meshes.size();  // for any class, for its own, and one for the list of each kind
+    searches += 2 + kinds_of_meshes.size();  // for any class, for its own, and in the list of each kind
   }
   const auto is_slow = [](const auto& call) { return call.second; };
   const auto first = std::find_if(calls.begin(), calls.end(), is_slow);

@@ -58,7 +58,7 @@ TEST(Shrinking, KeepsTheFailureAndIsNoMoreExotic) {
   EXPECT_EQ(shrunk_among(findings), kept);
   EXPECT_LT(kept, findings.size());
   const Judge judge(*subjects.front());
-  std::size_t more_exotic = 0;  // number of findings whose simplest query is more exotic
+  std::size_t more_exotic = 0;  // number of findings whose `simplest` is more exotic than their `query`
   for (const Finding& finding : findings) {
     if (!finding.is_shrunk) continue;
     const int own = exoticness(finding.query, finding.query_class);
@@ -88,7 +88,7 @@ TEST(Shrinking, DoesNothingAfterARequestToStop) {
 }
 
 TEST(Shrinking, ALateFindingHasTheTimeOfItsShrunkQuery) {
-  const Subjects subjects = one(make_any_subject(NEARMISS_PLUGINS "/promises.so"));  // always at t = 1/2
+  const Subjects subjects = one(make_any_subject(NEARMISS_PLUGINS "/promises.so"));  // always says t = 1/2
   const Query early = falling_vertex(0.3, 0.3, 0.1, -1);
   Finding finding{Finding::What::late, "always", "f", early, "f:1:0", 0.4, contact_signature(early), early};
   finding.time = 0.25;  // a wrong time, which must be replaced

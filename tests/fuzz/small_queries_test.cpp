@@ -34,7 +34,7 @@ void expect_sorted_and_decided(const std::vector<SmallQuery>& list, std::size_t 
 TEST(SmallQueries, AreSortedAndDecided) {
   for (const Kind kind : kinds_of_meshes) {
     const auto& list = small_queries(kind);
-    EXPECT_EQ(list.size(), kind == Kind::vertex_triangle ? 5995 : 5372);  // has one of all symmetric copies
+    EXPECT_EQ(list.size(), kind == Kind::vertex_triangle ? 5995 : 5372);  // without symmetric copies
     EXPECT_EQ(list.front().query, Query{.kind = kind});
     expect_sorted_and_decided(list, 61);
     for (const SmallQuery& each : list) {
@@ -56,7 +56,7 @@ TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
     for (const SmallQuery& each : list) ++seen[each.query.separation];
     ASSERT_EQ(seen.size(), 4);
     for (const double h : {0.25, 0.5, 1.0, 2.0}) EXPECT_GT(seen[h], small_queries(kind).size() / 2) << h;
-    EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // lacks queries with two right answers
+    EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // without queries with two right answers
   }
 }
 

@@ -92,8 +92,8 @@ TEST(TightTolerances, SatisfyTheConstraintsForEveryNumberOfDigits) {
   }
 }
 
-/// The constraints as functions of nine variables: the logarithms of τ, η, S, λ², D², E_vt, E_ee, ψ and μ,
-/// each divided by a power of e = ε^¼. ρ is fixed.
+/// The constraints as functions of nine variables. To get the variables, divide each of τ, η, S, λ², D²,
+/// E_vt, E_ee, ψ and μ by a power of e = ε^¼, and take the logarithm. ρ is fixed.
 struct ToleranceProblem {
   double eps;
   double rho;

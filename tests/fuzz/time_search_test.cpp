@@ -44,7 +44,7 @@ MadeUpSubject late_in_a_region() {
   });
 }
 
-/// A subject whose times are up to 1e-3 early, and where off() < region, up to 0.2 earlier still.
+/// A subject whose times are up to 1e-3 early. If off() < region, the times are up to 0.2 earlier still.
 MadeUpSubject early_in_a_region() {
   return altered([](const Query& query, Verdict verdict) {
     const double inside = std::max(0.0, 1 - off(query, verdict.time) / region);

@@ -79,8 +79,8 @@ std::vector<Answer> careful(std::span<const Query> queries, double given) {
 }
 
 /// Bounds B to give to wang. Some are at or beyond an end of the range in which no scaling is needed. The
-/// others are own bounds of the queries: the largest and some others, each multiplied by a factor from 1 to
-/// 2^60, and the doubles just below some of them.
+/// others are made from the queries' own bounds: the largest and some others, each multiplied by a factor
+/// from 1 to 2^60, and doubles just below some of these bounds.
 std::vector<double> bounds_for(std::span<const Query> queries) {
   constexpr double most = std::numeric_limits<double>::max();
   std::vector<double> own;
@@ -138,8 +138,8 @@ TEST_P(InLanes, AGivenBoundChangesNoAnswer) {
       const auto scalar = make_subject("wang-scalar", given);
       for (std::size_t i = 0; i < queries.size(); ++i)
         expect_equal(i, answer_of([&] { return scalar->decide(queries[i]); }));
-      // If the own bound of a query is larger than the given bound, the whole batch fails, with the error of
-      // the first such query.
+      // If a query's own bound is larger than the given bound, the whole batch fails, with the error of the
+      // first such query.
       const auto refused =
           std::ranges::find_if(expected, [](const Answer& each) { return !each.error.empty(); });
       const auto answered = static_cast<std::size_t>(refused - expected.begin());
@@ -187,7 +187,7 @@ TEST(WangInLanes, LeavesCoordinatesThatAreNotFinite) {
   for (const double c : {infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      queries.push_back(testing::falling_vertex(2, 2, 1, 1));  // apart, whatever value number i gets
+      queries.push_back(testing::falling_vertex(2, 2, 1, 1));  // apart, whatever x[i] becomes
       queries.back().x[i] = c;
     }
     for (const Instructions instructions : all_instructions)

@@ -57,8 +57,8 @@ def run_steps(group, layer):
 
 
 def ask(steps, answer, layer):
-    """Runs tests with the mutant of a layer that is built, and adds the result to `answer`. Runs a
-    failed test again, since it may have failed because the machine was busy."""
+    """Runs tests with the mutant of a layer, which must be built, and adds the result to `answer`.
+    Runs a failed test again, since it may have failed because the machine was busy."""
     for group in batches(steps):
         while group:
             ended = run_steps(group, layer)

@@ -1,6 +1,7 @@
-"""A copy of the tree that has no mutant, and the build of this copy. The copy has its own C++ files and
-headers; all other files are links. A mutant is in a layer over the copy and the build, so it changes neither of them,
-several mutants can be built at a time, and nothing is compiled again when a mutant is taken back."""
+"""A copy of the tree without a mutant, and the build of this copy. The copy has its own C++ files
+and headers; all other files are links. A mutant is put into a layer over the copy and the build,
+which stay unchanged. So several mutants can be built at a time, and nothing is compiled again when
+a mutant is removed."""
 
 import os
 import shutil
@@ -81,8 +82,8 @@ def configure():
         'CMAKE_CXX_COMPILER': 'g++',
         # Mutants cause many warnings.
         'CMAKE_CXX_FLAGS_RELEASE': '-O1 -DNDEBUG -D_GLIBCXX_ASSERTIONS -w',
-        # Edits of headers make defective subjects. An edit may not fit a header with a mutant,
-        # so the edits start from the original headers.
+        # The build makes defective subjects by editing headers. An edit could fail in a header
+        # with a mutant, so the edits start from the original headers.
         'nearmiss_unedited': ROOT,
     }
     words = [f'-D{name}={value}' for name, value in options.items()]
@@ -93,7 +94,8 @@ def configure():
 
 @dataclass
 class Layer:
-    """A layer over the copy and its build. What commands write to them is kept in `folder` instead."""
+    """A layer over the copy and its build. Files that commands write to the copy or its build are
+    kept in `folder` instead."""
 
     folder: Path
 
@@ -128,7 +130,8 @@ class Layer:
 
 
 def before(layer, memory=None):
-    """Words to put before a command: it sees the layer, if given, and can kill no other process."""
+    """Words to put before a command so that it sees the layer, if one is given, and cannot kill
+    other processes."""
     return [*(layer.words() if layer else []), *seal(), *limits(memory)]
 
 

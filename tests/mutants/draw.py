@@ -101,7 +101,8 @@ def chosen(mutations, seed, count):
 
 
 def draw(folders, seed, count):
-    """Draws equally many mutants from each folder: in total, `count` or a few more."""
+    """Draws equally many mutants from each folder, so that there are `count` or a few more in
+    total. A folder may have too few mutants for its share."""
     known = equivalents.listed()
     drawn = []
     for folder in folders:

@@ -7,8 +7,8 @@ from sources import sha, shown
 
 @dataclass(frozen=True)
 class Mutation:
-    """Replaces line number `line` of a file, `old`, by `new`. `nth` distinguishes equal mutants of
-    equal lines."""
+    """Replaces `old`, the text of the line with number `line` in a file, by `new`. `nth`
+    distinguishes equal mutants of equal lines."""
 
     file: str
     operator: str

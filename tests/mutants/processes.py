@@ -70,8 +70,9 @@ def limits(memory=None):
 def seal():
     """Words to put before a command to isolate its processes: they cannot see or kill other
     processes, and none of them survives the command. The first process in a PID namespace ignores
-    signals, so the command itself is the second: a shell runs it. If a signal ends the command, the
-    shell's exit code is 128 plus the number of the signal.
+    signals. Therefore the first process is a shell, and the command that it runs is the second
+    process. If a signal ends the command, the shell's exit code is 128 plus the number of the
+    signal.
     """
     user = [] if os.geteuid() == 0 else ['--user', '--map-current-user']
     shell = ['sh', '-c', '"$@"; exit $?', 'sh']

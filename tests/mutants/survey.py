@@ -85,6 +85,6 @@ class Survey:
         return mutation, result
 
     def take(self):
-        """The pairs of each mutant and its result."""
+        """Pairs of a mutant and its result, one for each mutant drawn."""
         with ThreadPoolExecutor(self.jobs) as pool:
             return list(pool.map(self.result_of, self.drawn))

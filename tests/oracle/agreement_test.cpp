@@ -87,8 +87,8 @@ TEST(Agreement, TheFilterContradictsATie) {
             "at most h (no: filter; yes: first)");
 }
 
-// The decision claims a tie, but the smallest distance is not exactly h. No method is asked that could
-// contradict the decision.
+// The decision claims a tie, but the smallest distance is not exactly h. No method is asked, so none
+// contradicts the decision.
 TEST(Agreement, AWrongDecisionIsNotProved) {
   const Query far = with_separation(miss, 0.5);  // miss has the distance 1
   const Query near = with_separation(miss, 2);
@@ -102,8 +102,8 @@ TEST(Agreement, AWrongDecisionIsNotProved) {
 
 TEST(Agreement, ATieAtTheLargestDoubleNeedsNoProofAboveIt) {
   constexpr double M = std::numeric_limits<double>::max();
-  // The triangle is degenerate: it is a segment. When 2 t² = 1, the vertex is exactly M, the largest double,
-  // above the segment. At all other times, their distance is larger.
+  // The triangle is degenerate: it is a segment. When 2 t² = 1, the distance between the vertex and the
+  // segment is exactly M, the largest double. At all other times, it is larger.
   const Query tie{.kind = Kind::vertex_triangle,
                   .x = {0,  -.5, M, -1, 0,  0, 1, 0, 0, -1, 0,  0,  //
                         -1, -.5, M, -1, -1, 0, 1, 1, 0, -1, -1, 0},

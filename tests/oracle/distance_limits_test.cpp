@@ -41,8 +41,8 @@ TEST(ClosestRatio, OfASubnormalUnitIsTheSameWhereTheCallerTakesSubnormalsForZero
 Query nearly_overflowing() { return falling_vertex(0.25, 0.25, 0x1.8p1023, 0x1.2p1023); }
 
 TEST(DistanceInUnits, IsFiniteWhereTheRatioIs) {
-  // The function that is passed requires an enclosure with lo = hi, which the search cannot find. So exact
-  // comparisons enclose the ratio as narrowly as doubles allow.
+  // The lambda requires an enclosure with lo = hi, and the search finds none. So exact comparisons enclose
+  // the ratio as narrowly as doubles allow.
   const Enclosure ratio = distance_in_units(nearly_overflowing(), 0x1.1p1023, [](double hi) { return hi; });
   EXPECT_LE(ratio.lo, 0x1.2p0 / 0x1.1p0);
   EXPECT_GE(ratio.hi, 0x1.2p0 / 0x1.1p0);
@@ -63,7 +63,7 @@ TEST(DistanceInUnits, IsRoundedOutward) {
 }
 
 TEST(ClosestRatio, IsFiniteWhereOnlyExactComparisonsResolveALargeDistance) {
-  // The distance is equal to the unit of closest_ratio(), up to rounding.
+  // The query's smallest distance equals the unit that closest_ratio() gets, up to rounding.
   const Query query{.kind = Kind::edge_edge,
                     .x = {0x1.50d02ca487f8ep-1,     -0x1.1c97712306c4bp-1,    -0x1.bac235c6917c2p+1023,
                           0x1.fffffffffffffp+1023,  0x1.0355da996823ap+1021,  -0x1.fffffffffffffp+1023,

@@ -127,7 +127,7 @@ Query thin_edges(double size) {
                     {{0, 0.5, 1.5 * size}, {size / 8, 0x1.8p-6, 0}, {0, 0, size / 32}, {1.5 * size, 0.5, 0}});
 }
 
-/// All queries above whose sums of products overflow.
+/// Those of the queries above in which sums of products overflow.
 std::vector<Named> overflowing() {
   return {{"crossing edges", scaled(crossing_edges(), 0x1p340)},
           {"two far points", two_far_points(0x1p511)},

@@ -21,7 +21,7 @@ namespace {
 
 using testing::Hard;
 
-/// Whether the stage that the filter returns agrees with exact arithmetic, or is `undecided`.
+/// Whether `stage`, the filter's answer to a query, agrees with exact arithmetic or is `undecided`.
 ::testing::AssertionResult is_right(FilterStage stage, std::size_t index, const Query& query) {
   if (stage == FilterStage::undecided || is_collision(stage) == collides_exactly(query))
     return ::testing::AssertionSuccess();
@@ -187,7 +187,7 @@ TEST(Filter, LeavesWhatIsNotFinite) {
   for (const double c : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, even before coordinate i is replaced
+      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, before coordinate i is replaced
       query.x[i] = c;
       queries.push_back(query);
       EXPECT_EQ(filter(query), FilterStage::undecided);

@@ -102,9 +102,9 @@ TEST(Separation, WhatHappensAtExactlyHBeforeItFallsBelowIsNotLate) {
   EXPECT_TRUE(time.makes_late(std::nextafter(0.5, 1)));
 }
 
-// The second edge turns round: at t = 1/2, it shrinks to a point, whose distance from the first edge is
-// exactly h. This point is an end of the second edge. Before t = 1/2, it is the edge's nearest point to the
-// first edge, so that the distance is exactly h then, too.
+// The second edge turns round: at t = 1/2, it shrinks to its end (0, 0, 0), whose distance from the first
+// edge is always h. Before t = 1/2, this end is the second edge's nearest point to the first edge. So the
+// distance is exactly h up to t = 1/2.
 TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   const Query query =
       with_separation(testing::make_query(Kind::edge_edge, {{0, 0, 1}, {0, 0, 1}, {0, 0, 0}, {0, 1, -1}},
@@ -116,8 +116,8 @@ TEST(Separation, AnEdgeThatVanishesForAMomentDoesNotHideThatTheDistanceFalls) {
   EXPECT_TRUE(approach->below->is(exact::Number(0.5)));
 }
 
-/// Separations of about the size of a query with coordinates up to 1. The last one is the exact distance of
-/// neighbouring points of a grid with integer coordinates.
+/// Separations for queries with coordinates of about 1. The last separation is the distance of two
+/// neighbouring points with integer coordinates.
 constexpr std::array separations{0.25, 0.5, 1.0};
 
 void expect_agreement(const Query& query, const std::string& repeat) {

@@ -1,5 +1,5 @@
 // The filter (in double words) and exact arithmetic find the same two neighbouring doubles around the
-// earliest time.
+// earliest time of contact.
 #include "oracle/filter/neighbours.hpp"
 
 #include <gtest/gtest.h>
@@ -95,7 +95,7 @@ TEST(Ball, HasNoSignIfItOverflows) {
   EXPECT_EQ((Ball<DoubleWord>(0x1p1000) * Ball<DoubleWord>(0x1p1000)).sign(), 0);
 }
 
-/// Whether the ends of `time` are neighbouring doubles, with the exact first time between them.
+/// Whether the ends of `time` are neighbouring doubles, and the exact time `first` is between them.
 ::testing::AssertionResult is_between(exact::Root first, const Enclosure& time) {
   exact::Root lo{exact::Number(time.lo)};
   if (std::nextafter(time.lo, 2) == time.hi && lo.is_below(first) && testing::is_before(first, time.hi))
@@ -114,7 +114,7 @@ std::vector<Query> contacts(std::uint64_t seed, std::size_t count) {
   return queries;
 }
 
-/// Compares those of `times` that are known with exact times. Returns how many times it has compared.
+/// Compares the known ones of `times` with the exact times. Returns the number of comparisons.
 std::size_t check(const std::vector<Query>& queries, const std::vector<KnownTime>& times) {
   std::size_t known = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {

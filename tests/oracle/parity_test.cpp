@@ -61,8 +61,9 @@ TEST(RootParity, ARootOfAFlatPatchAtItsBorderIsOnTheBoundary) {
   }
 }
 
-// Root parity counts where a ray crosses the image of a boundary. If all vertices stay in a plane or on a
-// line, this image consists of flat patches, many of which touch the origin only between t = 0 and t = 1.
+// Root parity counts how often a ray crosses the image of a domain's boundary (parity.hpp). If all vertices
+// stay in a plane or on a line, this image consists of flat patches, many of which touch the origin only
+// between t = 0 and t = 1.
 TEST(RootParity, IsThatOfTheRootsInSpaceInAPlaneAndOnALine) {
   for (const int largest : {1, 2, 3, 1000})
     for (std::size_t i = 0; i < 600 && !HasFatalFailure(); ++i) {

@@ -314,7 +314,7 @@ TEST(Root, AgreesWithTheAlgebraicKernel) {
         ASSERT_TRUE(roots[k - 1].is_below(roots[k]));
       }
     }
-    // Orders the roots of p among those of p q.
+    // Compares each root of p with each root of p q.
     std::vector<AlgebraicKernel::Algebraic_real_1> others;
     kernel.solve_1_object()(both.there, false, std::back_inserter(others));
     std::erase_if(others, [](const auto& t) {

@@ -233,9 +233,9 @@ TYPED_TEST(SeparationErrors, UpperBoundsAreAboveTheDistance) {
     }
 }
 
-/// Expects that the error bound of each coefficient is at least n times its element of `sizes`. The
-/// coefficient itself is n, because it counts roundings here. Its element of `sizes` bounds the sum of the
-/// magnitudes of its products.
+/// Expects that the error bound of coefficient i is at least n · sizes[i], where n is the number of roundings
+/// of the coefficient. The value of a coefficient is n here, because it counts roundings. sizes[i] bounds the
+/// sum of the magnitudes of the products in the coefficient.
 void expect_room(const Product& product, const std::array<double, 4>& sizes) {
   constexpr double second_orders = 1.02;  // also covers the roundings of the error itself
   for (std::size_t i = 0; i < 4; ++i)

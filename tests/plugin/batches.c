@@ -1,10 +1,10 @@
 /* Detectors that want up to 10^5 queries at once.
  *   rows, arrays, small-arrays: report every query. The time of impact is the fractional part of a
- *     weighted mean of the query's coordinates. They read the coordinates in the layout of their
- *     names. `rows` says that its kernels have run for 10^5 seconds, `arrays` that its computing time
- *     is unknown. `small-arrays` wants 7 queries at once.
- *   counts, counts-50: answer every query with an error code: minus the number of queries in the call.
- *     They crash if x[0] > 0.9, and hang if x[0] < -0.9. `counts-50` wants 50 queries at once.
+ *     weighted mean of the query's coordinates. Their names say in which layout they read the
+ *     coordinates. `rows` says that its kernels have run for 10^5 seconds; `arrays` says that its
+ *     computing time is unknown. `small-arrays` wants 7 queries at once.
+ *   counts, counts-50: answer every query with an error code, which is minus the number of queries in
+ *     the call. They crash if x[0] > 0.9, and hang if x[0] < -0.9. `counts-50` wants 50 queries at once.
  *   wearing: crashes at the 5000th query of its process, whatever the query is. */
 #include <math.h>
 #include <signal.h>

@@ -47,7 +47,7 @@ class Distances {
   double ve(V p, V a, V b) const {
     const V edge = b - a;
     const double squared = dot(edge, edge);
-    const double shortest = is(5) ? 1e-6 : 0;  // an absolute threshold for edges of no length
+    const double shortest = is(5) ? 1e-6 : 0;  // treats short edges as points
     if (!(squared > shortest) && !is(6)) return vv(p, a);
     const double t = dot(p - a, edge) / squared;                   // 0 / 0 with defect 6
     if (is(7)) return vv(p, t < 0.5 ? a : b);                      // considers only the ends
@@ -62,7 +62,7 @@ class Distances {
     if (is(11)) best = std::min({vv(p, a), vv(p, b), vv(p, c)});                // all edges are left out
     const V normal = cross(b - a, c - a);
     const double squared = dot(normal, normal);
-    const double smallest = is(12) ? 1e-12 : 0;  // an absolute threshold for the area
+    const double smallest = is(12) ? 1e-12 : 0;  // treats small triangles as degenerate
     if (!(squared > smallest)) return best;
     const double u = dot(cross(p - a, c - a), normal) / squared;
     const double v = dot(cross(b - a, p - a), normal) / squared;

@@ -47,7 +47,7 @@ class Narrow {
 
 }  // namespace ipc
 
-namespace accd {  // templates that get displacements, and the end of the time step in toc
+namespace accd {  // templates that get displacements; on entry, toc is the end of the time step
 
 template <class T>
 bool Point_Triangle_CCD(Eigen::Matrix<T, 3, 1> p, Eigen::Matrix<T, 3, 1> a, Eigen::Matrix<T, 3, 1> b,
@@ -76,7 +76,7 @@ struct CTCD {
   }
 };
 
-namespace eltopo {  // each vertex with its new position and index, and a second overload
+namespace eltopo {  // each vertex is passed with its new position and index; one function has two overloads
 
 struct Vec3d {
   double v[3];
@@ -128,7 +128,7 @@ inline bool vertex_vertex(Float3 a, Float3 b, Float3 a1, Float3 b1, double& toi)
 /// Declared, but never defined.
 bool forgotten(plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P);
 
-namespace distances {  // of primitives at rest; the second gives the square, and has a default argument
+namespace distances {  // of primitives at rest; the second function has a default argument
 
 inline double vertex_vertex(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
 inline double vertex_edge_squared(Eigen::Vector3d p, Eigen::Vector3d a, Eigen::Vector3d b, double scale = 1) {

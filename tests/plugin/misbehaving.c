@@ -1,5 +1,5 @@
-/* A subject that reports every query, but misbehaves on one query in NEARMISS_ONE_IN (environment; 100 if not
- * set), chosen by the bits of the coordinates. */
+/* A subject that reports every query, but misbehaves on one query in N, chosen by the bits of the
+ * coordinates. The environment variable NEARMISS_ONE_IN gives N; the default is 100. */
 #define _GNU_SOURCE
 #include <signal.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* A plug-in compiled for version 2 or 3 of the interface (VERSION), whose structure has fewer fields than
- * later versions. The numbers in memory after the structure would be wrong values for the later fields. The
- * plug-in reports all queries. It claims the bound 0.125, plus the separation in version 3. */
+ * that of later versions. Code that reads the later fields finds wrong values, which follow the structure in
+ * memory. The plug-in reports all queries. It claims the bound 0.125, plus the separation in version 3. */
 #include <stddef.h>
 
 typedef struct {

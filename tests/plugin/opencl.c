@@ -3,10 +3,10 @@
  * along a fixed direction is linear in time, so it suffices to look at the ends of the interval. A collision
  * is reported at the start of the first interval without such a direction; no contact is earlier. Rounding
  * causes no miss. Once the largest coordinate is scaled into [1/2, 1), the error of a distance along d is
- * less than 13 * 2^-24 s, with s = |dx| + |dy| + |dz|, and the required distance is 64 * 2^-24 s. (In units
- * of 2^-24 s, the error of each of two points is at most 2.1; their difference adds 2, and three products
- * and two sums add 6.) Numbers below 2^-126, which a device may take for 0, matter far less,
- * since neither d nor the largest coordinate is tiny.
+ * less than 13 * 2^-24 s, with s = |dx| + |dy| + |dz|, and the CCD requires a distance of 64 * 2^-24 s. (In
+ * units of 2^-24 s, the error of each of two points is at most 2.1; their difference adds 2, and three
+ * products and two sums add 6.) Numbers below 2^-126, which a device may take for 0, matter far less, since
+ * neither d nor the largest coordinate is tiny.
  *
  *     cc -shared -fPIC -I. -o opencl.so tests/plugin/opencl.c -lOpenCL
  *

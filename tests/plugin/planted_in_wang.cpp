@@ -1,6 +1,7 @@
 // The subject wang as a plug-in with planted defects. If the environment variable NEARMISS_PLANTED is N > 0,
-// one answer in N is wrong, chosen by the bits of the coordinates. If NEARMISS_SLOWED is a number above 1,
-// each query of the family kilometres is decided this many times on average, which slows this family down.
+// one answer in N is wrong; the bits of the coordinates choose which one. If NEARMISS_SLOWED is a number
+// above 1, the subject decides each query of the family kilometres this many times on average, so that this
+// family becomes slower.
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -120,9 +120,10 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(LOADED_MIB)
-/* Takes LOADED_MIB of memory while it is loaded, and USED_MIB for each query. A macro may choose how
- * LOADED_MIB is taken: by mmap(2) (MAPPED); as static data, of which STATIC bytes are written (STATIC); or
- * by a child process, which maps it over addresses without access (CHILD). Otherwise, malloc(3) takes it. */
+/* Takes LOADED_MIB of memory while it is loaded, and USED_MIB for each query. A macro may choose where
+ * LOADED_MIB comes from: mmap(2) (MAPPED); static data, of which STATIC bytes are written (STATIC); or a
+ * child process, which maps it over addresses that it first reserves without access (CHILD). The default is
+ * malloc(3). */
 #define NAME "large"
 static void* taken(size_t mib) {
   void* const block = malloc(mib << 20);
@@ -161,8 +162,8 @@ static int answer(void) {
   return loaded != NULL;
 }
 #elif defined(RECOVERS)
-/* Asks for more memory than is allowed, and continues when the system refuses it. The subject's process
- * crashes at the next query. */
+/* At its first query, asks for more memory than is allowed, and continues when the system refuses. At the
+ * second query, the subject's process crashes. */
 #define NAME "recovers"
 static int answer(void) {
   static int calls = 0;

@@ -1,5 +1,6 @@
 /* A subject that reports every query, but crashes at each query with x > 0.9. Its first process makes the
- * file that NEARMISS_MARK names. In later processes, it cannot be loaded, or has another name (RENAME). */
+ * file that NEARMISS_MARK names. In later processes, the subject cannot be loaded, or has another name
+ * (RENAME). */
 #include <fcntl.h>
 #include <signal.h>
 #include <stdlib.h>

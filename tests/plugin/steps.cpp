@@ -45,19 +45,19 @@ class Filter {
       const double x = q_.x[3 * i + axis];
       const double motion = q_.x[size + 3 * i + axis] - x;
       double room = is_low ? low - x : x - high;
-      if (is(10)) {  // gives all vertices the room of the first one
+      if (is(10)) {  // gives all vertices of a primitive the room of its first vertex
         const double first = q_.x[i < first_ ? axis : 3 * first_ + axis];
         room = is_low ? low - first : first - high;
       }
       const double towards = is_low ? motion : -motion;
       double t = towards > room ? room / towards : 1;
       if (is(5) && !is_low) t = 1;             // one primitive is not filtered
-      if (is(6)) t = std::min(1.0, 1.25 * t);  // a relaxation that is larger than 1
+      if (is(6)) t = std::min(1.0, 1.25 * t);  // a relaxation factor above 1
       if (is(7) && i + 1 == n_) t = 1;         // the last vertex is left out
       if (is(8)) t = static_cast<double>(static_cast<float>(t) * 1.5F);
-      if (is(9) && towards < 0) t = 0;               // stops vertices that move away: safe, but keeps less
-      if (is(11) && std::abs(motion) < 1e-3) t = 1;  // an absolute threshold for rest
-      if (is(12) && room < 1e-3) t = 1;              // an absolute threshold for the gap
+      if (is(9) && towards < 0) t = 0;               // also stops vertices that move away: safe
+      if (is(11) && std::abs(motion) < 1e-3) t = 1;  // treats slow vertices as at rest
+      if (is(12) && room < 1e-3) t = 1;              // does not stop vertices with little room
       for (std::size_t k = 0; k < 3; ++k) {
         const double from = q_.x[3 * i + k];
         y[3 * i + k] = t == 1 ? q_.x[size + 3 * i + k] : from + t * (q_.x[size + 3 * i + k] - from);

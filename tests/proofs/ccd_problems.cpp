@@ -135,8 +135,8 @@ Problem cubic(CubicPart part) {
   return problem;
 }
 
-/// Coefficients that are inputs, in units of B³. The bound of a coefficient also holds if the coefficient is
-/// computed: it exceeds the bound of the exact coefficient by 1/2, which is far more than the rounding error.
+/// The coefficients of the cubic as inputs, in units of B³. Their bounds also hold for computed coefficients:
+/// each bound exceeds that of the exact coefficient by 1/2, which is far more than the rounding error.
 Cubic<Traced> exact_coefficients(Problem& problem) {
   Cubic<Traced> F;
   for (const auto& [coefficient, name, most] :

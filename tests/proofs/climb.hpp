@@ -14,7 +14,7 @@ namespace nearmiss::proofs {
 /// The effort and the seed of a search.
 struct ClimbEffort {
   int rounds;
-  int steps;  ///< steps of each round, after a quarter as many random draws
+  int steps;  ///< steps of each round; first, the round makes steps / 4 random draws
   std::uint64_t seed = 1;
 };
 

@@ -33,7 +33,7 @@ Expansion with_underflow(Expansion terms) {
   return terms;
 }
 
-/// Expands the result of an instruction of a program, after it has expanded the operands.
+/// Expands the result of a program's instruction, after the results of its operands.
 class Expander {
  public:
   Expander(const Program& program, const Roundings& arithmetic)
@@ -113,8 +113,7 @@ class Expander {
     if (!is_plain) throw std::logic_error("found a magnitude of something other than a difference of inputs");
     return {{1, {{steepest, 1}}, 1, 0}};
   }
-  /// The expansion of the larger of two magnitudes of differences. It has as many roundings as the magnitude
-  /// with more roundings.
+  /// The expansion of the larger of two magnitudes of differences: that of the magnitude with more roundings.
   Expansion largest_magnitude(const Instruction& one) {
     const Expansion a = of(one.left);
     const Expansion b = of(one.right);

@@ -63,9 +63,9 @@ using BoundTerms = std::map<Monomial, BoundTerm>;
 /// Maps the name of an input to the name of a bound of its magnitude.
 using MagnitudeOf = std::function<std::string(const std::string&)>;
 
-/// For each monomial of magnitudes, bounds Σ |coefficient| Π |input| of its terms over all times in [0, 1].
-/// As a function of each time t in `times`, this sum is a polynomial in t and 1 - t without negative
-/// coefficients. So its largest Bernstein coefficient is a bound.
+/// Collects the terms with the same monomial of magnitudes, and bounds their sum Σ |coefficient| Π |input|
+/// for all times in [0, 1]. For each time t in `times`, this sum is a polynomial in t and 1 - t without
+/// negative coefficients. So its largest Bernstein coefficient is a bound.
 BoundTerms bound(const Expansion& terms, const MagnitudeOf& magnitude_of,
                  const std::vector<std::string>& times);
 

@@ -34,10 +34,10 @@ bool is_extreme(Operation operation) {
          operation == Operation::smallest;
 }
 
-/// Hints for Gappa about a position X = D + t V between D and E. X is a convex combination of D and E, which
-/// are within `reach`, so X is within `reach`, too. Likewise, k, the part of X's error that comes from the
-/// errors of D and E, is within the bound of these errors. Interval arithmetic derives this from bound - X
-/// and bound + X (or k in place of X), which are sums of products of nonnegative numbers.
+/// Hints for Gappa about a position X = D + t V between D and E. X is a convex combination of D and E, whose
+/// magnitudes are at most `reach`, so |X| is at most `reach`, too. The same holds for the part of X's error
+/// that comes from the errors of D and E; here, `reach` is the bound of these errors. Interval arithmetic
+/// derives this from reach - X and reach + X, which are sums of products of nonnegative numbers.
 std::string convex_hints(const char* combination, const char* start, const char* end, double reach) {
   return fmt::format(
       "{0} -> {3} - ((1 - t) * ({3} - {1}) + t * ({3} - {2}));\n"

@@ -29,8 +29,8 @@ double seen_leaves(const Inputs& inputs) {
   return ratio(abs(exact - rounded), rounded * Rational(u));
 }
 
-/// The error of p q that the errors ep and eq of its factors cause, divided by the term that `cross_bound`
-/// has for it.
+/// The error of p q that the errors ep and eq of its factors cause, divided by the term of `cross_bound` for
+/// this error.
 double seen_growth(const Inputs& in) {
   const Rational p(in.at("p"));
   const Rational q(in.at("q"));
@@ -39,7 +39,7 @@ double seen_growth(const Inputs& in) {
   return ratio(abs((p + ep) * (q + eq) - p * q), abs(p * eq) + abs(q * ep) + abs(ep * eq));
 }
 
-/// The rounding error of t - h, an end of the interval of `error_near`, in units of 2^-54.
+/// The rounding error of t - h, an end of the interval [t - h, t + h] of `error_near`, in units of 2^-54.
 double seen_end(const Inputs& in) {
   const Rational exact = Rational(in.at("t")) - Rational(in.at("h"));
   return exact < 0 || exact > 1 ? 0
@@ -57,8 +57,8 @@ double seen_zoom(const Inputs& in) {
   return !is_in_step ? 0 : ratio(abs(Rational(end) + Rational(zoom_rounding) - exact), Rational(0x1p-52));
 }
 
-/// The change of a quadratic polynomial with exact coefficients b from 0 to h, divided by the bound that
-/// `error_near` has for it.
+/// |p(h) - p(0)|, where p is the quadratic polynomial with the exact coefficients b, divided by the bound of
+/// this change in `error_near`.
 double seen_spread(const Inputs& in) {
   const std::array<Rational, 3> b{Rational(in.at("b0")), Rational(in.at("b1")), Rational(in.at("b2"))};
   const Rational h(in.at("h"));
@@ -67,8 +67,8 @@ double seen_spread(const Inputs& in) {
   return h < 0 || h > 1 ? 0 : ratio(abs(moved), 2 * h * slope);
 }
 
-/// The amount by which |b1 - b0| of exact coefficients exceeds that of computed ones, divided by the error of
-/// a coefficient.
+/// The amount by which |b1 - b0| is larger for exact coefficients than for computed ones, divided by the
+/// error of a coefficient.
 double seen_slope(const Inputs& in) {
   const Rational e(in.at("e"));
   const Rational slope = abs(Rational(in.at("b1")) - Rational(in.at("b0")));

@@ -76,7 +76,8 @@ double proven_underflow(Results results, Leaves leaves, int more) {
   return largest_end(scripts);
 }
 
-/// The `error_near` of a polynomial at h. The polynomial's coefficients, its error and h are inputs.
+/// Traces `error_near` of a polynomial, for the half width h. The polynomial's coefficients, its error and h
+/// are inputs.
 Traced traced_error_near(Trace& trace) {
   Bernstein<Traced, 3> polynomial;
   for (std::size_t i = 0; i < 3; ++i)

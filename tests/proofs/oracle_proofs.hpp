@@ -28,7 +28,7 @@ double proven_headroom(Results results, int degree);
 double proven_spread_growth();
 /// How many times the error of a coefficient enters a slope in `error_near`.
 double proven_slope_errors();
-/// The rounding error of an end of the interval of `error_near`, in units of 2^-54.
+/// The rounding error of t - h or t + h, an end of the interval of `error_near`, in units of 2^-54.
 double proven_end_rounding();
 /// The difference of the lower halves of two double words, divided by the larger upper half, in units of
 /// 2^-52.

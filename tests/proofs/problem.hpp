@@ -23,8 +23,8 @@ struct BoundedExpression {
   int degree;
 };
 
-/// The problem of bounding an error for all inputs within bounds: the error of an expression, or of the
-/// difference of the two sides of a comparison.
+/// The problem of bounding an error for all inputs within their bounds. The error is that of an expression,
+/// or that of the difference of the two sides of a comparison.
 ///
 /// All expressions are homogeneous in the lengths, so a proof for B = 1 is a proof for every B: scaling by a
 /// power of two changes no rounding, and the bound of relative errors is the same everywhere in a binade.

@@ -151,9 +151,9 @@ double horner(double u) {
   return 6 * growth(u, 6) + 18 * growth(u, 5) + 18 * growth(u, 3) + 6 * growth(u, 1);
 }
 
-/// Let F̂ be the computed F. Between two nodes, F may come nearer to 0 than F̂ does at both nodes. Returns
-/// the largest such difference, divided by its bound h + m. If the difference reached |F̂|, a root could be
-/// missed.
+/// Let F̂ be the computed F. Between two nodes, |F| may be smaller than |F̂| is at both nodes. Returns the
+/// largest amount by which |F| is smaller, divided by the bound h + m of this amount. If the amount reached
+/// |F̂|, a root could be missed.
 double nearer_ratio(const Coefficients& k, int bits) {
   const double u = roundoff(bits);
   const Cubic<double> F = cubic<double>(k);

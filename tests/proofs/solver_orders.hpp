@@ -49,7 +49,7 @@ Number cubic_nodes(const Number& u, const Number& a, const Number& b, const Numb
 }
 
 /// `a`, `b` and `c` bound the coefficients of x_0i × x_ji in `vertex_edge`, and `error` bounds the sum of
-/// their errors. The errors of roots do not count.
+/// their errors. `error` does not include the errors of roots.
 template <class Number>
 struct EdgeBounds {
   Number a, b, c, error;

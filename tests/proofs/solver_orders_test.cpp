@@ -93,8 +93,8 @@ TEST(ProofsSolverOrders, LeastPsiHasAllOrders) {
 }
 
 // Checks steps (2) and (3) of the proof of solve_cubic. h is the error of Horner's rule; the coefficients are
-// at most 6, 18, 18 and 6. The errors of the nodes determine μ: Bernstein coefficients, neighbouring numbers
-// and ineffective steps require only smaller values of μ.
+// at most 6, 18, 18 and 6. The errors of the nodes determine μ. The proof's other cases (Bernstein
+// coefficients, neighbouring numbers and ineffective steps) require only smaller values of μ.
 TEST(ProofsSolverOrders, NothingElseAsksForMoreOfMu) {
   const RationalFunction scale = power(u + 1, 15);  // growth of computed coefficients
   const RationalFunction h =

@@ -70,8 +70,8 @@ struct TheoremBounds {
   [[nodiscard]] double error() const { return left.error() + right.error(); }
 };
 
-/// Applies the theorem, with one exception: a position x + t v is within the bound of its ends, so its size
-/// is not the sum of the sizes of x and t v. With a = 1 + ε and m = k_t + k_v + 1, its error is at most
+/// Applies the theorem, with one exception: the size of a position x + t v is the bound of its two ends, not
+/// the sum of the sizes of x and t v. With a = 1 + ε and m = k_t + k_v + 1, its error is at most
 ///   ((a^k_x - 1) + (a^m - 1)) a + ε = a^(k_x + 1) + a^(m + 1) - a - 1 <= a^(k_x + m + 1) - 1,
 /// since (a^k_x - 1)(a^m - 1) >= 0. For exact vectors, the exponent is 2, as in the paper (§4.2).
 TheoremBounds theorem_bounds(const Problem& problem, Vectors vectors) {

@@ -13,8 +13,8 @@
 
 namespace nearmiss::proofs {
 
-/// The operation of a node. Each operation rounds its result once, to nearest, except the first three and
-/// `negate`, `absolute`, `largest` and `smallest`, which are exact.
+/// The operation of a node. Operations from `add` on round their results once, to nearest; all operations
+/// before `add` are exact.
 enum class Operation : std::uint8_t {
   input,     ///< an exact number with a name
   constant,  ///< an exact number with a value
@@ -42,9 +42,9 @@ struct Node {
   Trace* trace = nullptr;  ///< trace of the inputs; null without inputs
 };
 
-/// A comparison that a template made: left < right, left <= right or left == right. The operations recorded
-/// after a comparison are those for its outcome only. Therefore a proof about these operations must have the
-/// outcome as a hypothesis, or must not depend on it.
+/// A comparison that a template made: left < right, left <= right or left == right. The template then takes
+/// the branch of the outcome, so only the operations of this branch are recorded. Therefore a proof about
+/// these operations must have the outcome as a hypothesis, or must not depend on it.
 struct Branch {
   enum class Relation : std::uint8_t { less, at_most, equal } relation;
   std::shared_ptr<const Node> left, right;

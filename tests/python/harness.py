@@ -35,7 +35,8 @@ def run_python(program, *arguments, **variables):
 
 
 def answered_queries(program, count, seed):
-    # `program` has the sanitizers' runtime, which CMakeLists.txt preloads for Python.
+    # CMakeLists.txt preloads the sanitizers' runtime for Python. `program` has this runtime
+    # already.
     environment = {key: value for key, value in os.environ.items() if key != 'LD_PRELOAD'}
     command = [program, str(count), str(seed)]
     data = subprocess.run(command, capture_output=True, check=True, env=environment).stdout

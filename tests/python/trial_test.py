@@ -295,7 +295,7 @@ class Record(unittest.TestCase):
                 hits[hits.argmax()] = False
                 nearmiss.record(kind, x[1:], hits[1:], toi[1:], separation[1:], keep=kind == 'vv')
                 nearmiss.record(kind, x[0].reshape(2 * v, 3), hits[0], toi[0], separation[0])
-            # All have the size of some queries of two vertices.
+            # Each of these shapes has 24 numbers, as two queries of two vertices have.
             for shape in ((4, 2, 3), (2, 3, 4, 1), (1, 4, 2, 3), (4, 6), (24,), (2, 1, 2, 2, 3)):
                 try:
                     nearmiss.record('vv', x.flat[:24].reshape(shape), True)

@@ -76,8 +76,8 @@ def check_rates(comparison, where, found, tally):
 
 
 def measures(found, tally):
-    """Maps the key of each measure to its expected value. The largest number, at which a
-    quantile's bin may end, is taken from `found`."""
+    """Maps the key of each measure to its expected value. A quantile's bin may end at the largest
+    number, which is taken from `found`."""
     missed, false = tally.false_negatives, tally.false_positives
     of_negatives, of_positives = denominators(tally)
     times, by_wang = tally.times, 0 if tally.claims else false

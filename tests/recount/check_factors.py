@@ -11,8 +11,8 @@ from check_numbers import ROUNDING
 
 
 def check_common_factors(comparison, where, report, answers):
-    """Checks how many of a subject's misses, and of all collisions, have the values of factors that
-    the misses have in common."""
+    """Checks the values of factors that a subject's misses have in common: how many of the misses,
+    and of all collisions, have these values."""
     for found in report.get('common_factors', []):
         subject, kind, family = found['subject'], found['kind'], found['family']
         counts = _counts(answers, subject, kind, family)
@@ -27,8 +27,8 @@ def check_common_factors(comparison, where, report, answers):
 
 
 def check_sizes(comparison, where, report, answers):
-    """A subject is right in a range of sizes. Checks the counts of its answers at all other
-    sizes."""
+    """A row of `sizes` has the range of edge lengths, and that of distances, in which a subject is
+    right. Checks the counts of its answers outside these ranges."""
     for row in report.get('sizes', []):
         subject = row['subject']
         kinds = answers.kinds(subject) if row['kind'] == 'all' else (row['kind'],)
@@ -41,8 +41,9 @@ def check_sizes(comparison, where, report, answers):
 
 
 def _outside(counts, factor, first, last):
-    """Counts the answers at all values 2^x of a factor outside first <= x <= last. Leaves out kinds with
-    fewer than two collisions per value on average, unless all kinds have so few."""
+    """Counts the answers to queries for which a factor has a value 2^x outside first <= x <= last.
+    Leaves out kinds with fewer than two collisions per value on average, unless all kinds have so
+    few."""
     of_kinds = []
     for of_kind in counts.values():
         powers = {}

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Near:
-    """Expects `value`: a number, up to a relative error, or None."""
+    """Expects the number `value` up to a relative error, or None if `value` is None."""
 
     value: float
     relative: float

@@ -1,4 +1,5 @@
-"""Times of impact: their sort for each subject, and how far they are from the exact times."""
+"""Times of impact: which sort of time each subject gives, and how far its times are from the exact
+times."""
 
 import math
 from dataclasses import dataclass
@@ -145,7 +146,8 @@ def _speeds(nearmiss, kind, queries):
         speed = relative.max(axis=(1, 2))
         speed[np.isinf(speed)] = 0  # as in the program that makes the report
 
-        # The quotients by B are rounded, and a subnormal bound has few digits.
+        # Allows for the rounding of quotients by B, and for the few digits of `bound`, from which
+        # B is computed, if it is subnormal.
         relative_error = 1e-12 + 1e-322 / bound
         slack = np.nan_to_num(
             1e-15 * np.abs(place).max(axis=(1, 2, 3)) + speed * relative_error, nan=np.inf

@@ -116,8 +116,9 @@ TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
   EXPECT_THAT(changes(misses(2000), nights).new_signatures, ElementsAre(inside));
 }
 
-// One of 1,000 random draws fails in the baseline, and five fail now. All 12 steps of a sweep (values of a
-// family's parameter) fail with the same draws, but each of 12 families has its own draws.
+// In the baseline, one of 1,000 random draws fails; now, five fail. The 12 steps of a sweep (values of a
+// family's parameter) share their draws, and fail with the same ones. But each of 12 families has its own
+// draws.
 TEST(Changes, StepsOfASweepShareTheirDraws) {
   const auto with = [](const std::string& family, std::uint64_t draws) {
     constexpr std::uint64_t steps = 12;
@@ -276,7 +277,7 @@ TEST(Gone, NeedsTheQueriesOfEveryFamily) {
   EXPECT_THAT(changes(crashes, before).gone_signatures, IsEmpty());
 }
 
-// 38 of the 40 failures with each signature were in cases, which the later campaign does not replay.
+// Each signature had 40 failures. 38 of them were in cases, which the later campaign does not replay.
 TEST(Gone, DoesNotCountFailuresInCases) {
   const Signature late{Finding::What::late, "mine", "ee inside"};
   const Signature crash{Finding::What::fault, "mine", "ee crash"};

@@ -91,8 +91,8 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const Changes found = changes(with(1, 500), with(0, 500));
   ASSERT_THAT(found.rates, SizeIs(1));
   EXPECT_THAT(lines_for_the_worse(found), SizeIs(1));
-  // Families with few failures are added up three times, with three limits for "few"; therefore p is
-  // multiplied by 3.
+  // The rates of families with few failures are added up for three limits of "few". The smallest of the three
+  // p-values is multiplied by 3.
   EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);
   EXPECT_EQ(
       describe(found),
@@ -253,7 +253,7 @@ TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   EXPECT_THAT(changed(night("now", usual), nights), IsEmpty());
   const auto other =
       changed(night("now", [](const CountsKey& key) { return key.family == "f3" ? 1.5 : 1.0; }), nights);
-  EXPECT_THAT(other, SizeIs(4));  // one for each subject and kind
+  EXPECT_THAT(other, SizeIs(4));  // f3 of each subject and kind
 }
 
 TEST(ChangedTimes, ATimeThatWasUncertainSaysLittle) {
@@ -310,7 +310,7 @@ TEST(ChangedTimes, AreComparedByWelchsTest) {
                            night_of([](int i) { return std::pair(60, i == last ? 140 : 110); })};
   const Campaign now =
       night_of([](int i) { return i == last ? std::pair(300, 700) : std::pair(100 + i, 200 + 3 * i); });
-  constexpr double any = 1000;  // a risk at which every time has changed
+  constexpr double any = 1000;  // so large a risk that every time counts as changed
   const ComparedTimes found = compare_times(now, before, any);
   ASSERT_THAT(found.changed, SizeIs(10));
   EXPECT_EQ(found.compared, 10);

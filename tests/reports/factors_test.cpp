@@ -19,7 +19,8 @@ using Values = std::array<std::string, 3>;
 
 const FactorKey basic{"basic", Kind::edge_edge, "crossed", ""};
 
-/// Counts a collision for each combination of three factors with four values, and a miss if missed(a, b, c).
+/// Counts a collision for each combination of values of three factors, which have four values each. Counts a
+/// miss if missed(a, b, c).
 template <class Missed>
 FactorTable counted_for(const FactorKey& key, const Missed& missed) {
   FactorTable table;
@@ -96,7 +97,7 @@ TEST(CommonFactors, CountsMergeInAnyOrder) {
   EXPECT_EQ(forward.factors.at(basic), (FactorCounts{128, 20}));
 }
 
-/// Answers to `each` collisions and `each` other queries with edges of each length 2^-30, 2^-29 .. 2^30.
+/// For each edge length 2^-30, 2^-29 .. 2^30: the answers to `each` collisions and to `each` other queries.
 template <class Missed, class Reported>
 FactorTable answers(Kind kind, int each, const Missed& missed, const Reported& reported) {
   FactorTable table;
@@ -146,7 +147,7 @@ TEST(RightRange, NeedsEvidence) {
   const auto always = [](int /*x*/, int /*i*/) { return true; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 8, never, always)).exponents);  // it always says yes
 
-  // A size without answers ends the range.
+  // The range ends before a size for which there are no answers.
   FactorTable table = answers(Kind::edge_edge, 8, never, never);
   std::erase_if(table, [](const auto& each) { return each.first.values == "edge=2^10"; });
   EXPECT_THAT(range_of(table).exponents, Optional(Pair(-30, 9)));

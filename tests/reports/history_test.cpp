@@ -130,8 +130,8 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
       HasSubstr("2026-11-09  FAIL  1,000  mine: 1 new way to fail: false-negative, a; mine: version"));
 }
 
-// The subject's code seems to stay the same. This is always so for a program (pipe:...), because nearmiss
-// does not know its code.
+// nearmiss sees no change of the subject's code. It never sees one if the subject is a program (pipe:...),
+// because it does not know a program's code.
 TEST_F(HistoryOfNights, TellsAnotherFailureOfTheSameCodeAfterARepair) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1", .seen = {"a"}, .created = {"a"}}, 1);

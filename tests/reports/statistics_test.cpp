@@ -220,7 +220,7 @@ TEST(Exoticness, PointsCoincideIfTwoVerticesDoAtOneEndOfTheStep) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
       Query moving = falling_query;
-      moving.set_end(i, moving.start(j));  // coincident at different times, unless vertex j rests
+      moving.set_end(i, moving.start(j));  // i ends where j starts: they coincide only if j rests
       const int expected = i != j && j > 0 ? 2 : 1;
       EXPECT_EQ(exoticness(moving, QueryClass::degenerate), expected) << i << ' ' << j;
       moving.set_end(i, moving.end(j));

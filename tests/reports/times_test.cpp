@@ -182,7 +182,7 @@ TEST(ImpactTimes, ALateTimeInADirectedSearchKeepsASubjectOffTheFront) {
   EXPECT_TRUE(json["front_by_earliness"].empty());
   EXPECT_EQ(json["subjects"]["a"]["late"], 1);
   EXPECT_EQ(json["subjects"]["a"]["times_promised"], 2);
-  EXPECT_EQ(json["subjects"]["a"]["q99_time_error"][1], 0.02);  // only timed families count, as for rates
+  EXPECT_EQ(json["subjects"]["a"]["q99_time_error"][1], 0.02);  // counts only timed families, as rates do
   EXPECT_EQ(json["subjects"]["a"]["max_time_error"], 0.125);
 }
 

@@ -106,8 +106,8 @@ Statistics farthest_at(const std::map<std::string, double>& parts) {
   return statistics;
 }
 
-/// The fit of a power of the scalars' ε to the distances of a ladder over all families; null if there is no
-/// fit.
+/// The power of ε, the epsilon of a scalar, that is fitted to the distances of a ladder, for all families
+/// together; null if there is no fit.
 nlohmann::ordered_json fit(const std::map<std::string, double>& parts) {
   const auto all = ladder_json(farthest_at(parts))["fits"];
   return all.empty() ? nlohmann::ordered_json() : all[0];
@@ -142,7 +142,7 @@ TEST(Ladder, ASubjectOnNoLadderIsAnAlgorithmOfItsOwn) {
     EXPECT_NEAR(*place_of(name).unit, 40.963 * 0x1p-13, 1e-7) << name;
   EXPECT_EQ(place_of("wang-eps:h=0.001").algorithm, "wang-eps:h=0.001");
   EXPECT_EQ(place_of("wang:p40@7").algorithm, "wang@7");
-  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // the name gives the bound B
+  EXPECT_EQ(place_of("wang:p40@7").unit, std::nullopt);  // @7 is the bound B of every pair
   for (const char* other :
        {"exact", "defect:vv", "./plugin.so", "additive:rescaling=0.5", "wang-eps:h=0.001@7"}) {
     EXPECT_EQ(place_of(other).algorithm, other);

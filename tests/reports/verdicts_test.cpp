@@ -157,7 +157,7 @@ TEST(Verdicts, NothingFailsBeyondAContract) {
   const std::string name = "mine (beyond contract)";
   Statistics statistics;
   Counts& of = statistics.counts[{name, Kind::edge_edge, "f"}] =
-      with(counts(9, 0, 0, 0), Fault::contract, 9);  // the subject was asked none beyond its contract
+      with(counts(9, 0, 0, 0), Fault::contract, 9);  // no query beyond its contract was asked
   EXPECT_THAT(failures_of(name, of), IsEmpty());
   of = with(with(counts(9, 5, 2, 0), Fault::contract, 1), Fault::crash, 1);
   EXPECT_THAT(failures_of(name, of), ElementsAre(FailureKind::miss, FailureKind::fault));

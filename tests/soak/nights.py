@@ -86,7 +86,8 @@ class Machine:
 
 
 def catches(process, number):
-    """Whether a process is ready for a signal: it catches the signal, or the signal is SIGKILL."""
+    """Whether a process is ready for a signal: it has a handler for the signal, or the signal is
+    SIGKILL."""
     if number == signal.SIGKILL:
         return True
     try:

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Runs .clusterfuzzlite/build.sh as OSS-Fuzz does, but without a container. Checks that the built targets run
-# without any file of this repository. Arguments name the targets; the default is one target that tests a
-# reader and one that decides queries. Keeps the build folder, because the first build takes minutes.
+# without any file of this repository. Arguments name the targets; the default is two targets, of
+# which one tests a reader and the other decides queries. Keeps the build folder, because the first
+# build takes minutes.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 cd "$(dirname "$0")/../.."

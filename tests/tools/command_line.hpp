@@ -36,7 +36,8 @@ class Background {
   /// Waits until a file changes or appears. Returns false if the process has ended.
   bool wait_for_a_change(const std::filesystem::path& file);
 
-  /// Waits until the process catches SIGINT, SIGTERM and SIGHUP. Returns false if the process has ended.
+  /// Waits until the process has handlers for SIGINT, SIGTERM and SIGHUP. Returns false if the process has
+  /// ended.
   bool wait_until_it_handles_interrupts();
 
   void send(int signal) const;

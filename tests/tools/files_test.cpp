@@ -130,7 +130,7 @@ TEST_F(SameCode, ResultsOfAnotherPluginDoNotResumeOrMerge) {
   expect_refused("merge new.db a.db b.db", {"b.db: found plug-in always sha256 '" + digest() +
                                             "', expected '" + first + "' as in a.db"});
   expect_refused("report a.db b.db -o new", {"b.db: found plug-in always sha256"});
-  expect_code(1, "merge new.db a.db c.db");  // runs of different seeds stay apart
+  expect_code(1, "merge new.db a.db c.db");  // the runs have different seeds, and stay separate
   EXPECT_EQ(load_campaign(file("new.db")).runs.size(), 2);
 }
 

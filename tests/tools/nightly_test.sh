@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs tools/nightly in a copy of the tree in which set-up and libFuzzer do nothing. Checks exit codes and the
-# baseline. Checks that nights which a signal or a full disk ends still write a report, and leave no process
-# behind. Also interrupts tools/run, and runs tools/libfuzzer twice at the same time.
+# baseline. Checks that a night which is ended by a signal or by a full disk still writes a report, and leaves
+# no process behind. Also interrupts tools/run, and runs tools/libfuzzer twice at the same time.
 # Usage: nightly_test.sh NEARMISS. Exit code 77: this user cannot mount a small disk; all else was checked.
 # shellcheck disable=SC2016  # the command of --notify expands its own variables
 set -euo pipefail
@@ -77,8 +77,8 @@ tools/nightly --results "$folder/told" --subject ./none.so --notify 'printf "%s"
 expect "expected exit code 2" test $code = 2
 notified "^nearmiss: no report: found --subject './none.so'"
 expect "expected a row for each night" test "$(grep -oE '"page": ?"2[^"]*/report/index.html"' "$folder/told/index.html" | sort -u | wc -l)" = 3
-# A night raises an alarm for misses even if the baseline has them. The baseline consists of all earlier
-# nights: the last of these nights asked only wang, and had no misses.
+# A night raises an alarm for misses even if the baseline has them. The baseline consists of all
+# earlier nights, so it has the misses of basic although the last night asked only wang.
 night 0 --subject wang
 night 1 --subject=wang,basic
 expect_said '^lasting: [0-9]* ways to fail of basic, the oldest first seen 20.*Z .version .*.$'
@@ -90,8 +90,8 @@ expect "expected no sample for root parity" test ! -e "$folder/the nights/last/p
 # With --baseline 1, the baseline is only the night before.
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
-# A subject that sometimes gives no answer raises an alarm only in the first night. Misses of another subject
-# raise an alarm in a later night.
+# If a subject sometimes gives no answer, only the first night raises an alarm for this. A later
+# night still raises an alarm for the misses of another subject.
 fails=$(dirname "$nearmiss")/plugins/fail.so
 export NEARMISS_ONE_IN=5
 night 1 --subject "wang,$fails" --results "$folder/faults"
@@ -102,8 +102,8 @@ expect_said '^FAIL misbehaving: '
 night 1 --subject "wang,$fails,basic" --results "$folder/faults"
 expect_said '^alarm: basic missed '
 expect "expected no alarm for what lasts" test -z "$(grep '^alarm: .*misbehaving' "$folder/said")"
-# The baseline leaves out a night that cannot be read. A clock can be ahead, so the night's name may be in the
-# future.
+# The baseline leaves out a night that cannot be read. The name of this night has a future date, as
+# if the clock had been ahead.
 mkdir "$folder/the nights/2999-01-01T000000Z"
 echo garbage >"$folder/the nights/2999-01-01T000000Z/all.db"
 # The script keeps the night that has just run, although another night has a later date in its name.
@@ -141,7 +141,7 @@ code=0
 expect "expected exit code 2, found $code" test $code = 2
 expect_said '^left out: 2 of 3 shards, which cannot be read or are copies$'
 expect "expected a report of the other shard" test -s "$folder/shards/report/index.html"
-# libFuzzer hunts equally long for each failure of each subject, and for disagreements of the oracle.
+# libFuzzer hunts equally long for each kind of failure of each subject, and for disagreements of the oracle.
 cat >tools/libfuzzer <<END_OF_SCRIPT
 #!/bin/sh
 echo "\$3 \$4 \$5" >>"$folder/hunts"

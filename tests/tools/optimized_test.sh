@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks that OBJECTS, which are compiled with less optimization, and FAST_OBJECTS, the objects of
-# ccd/ and oracle/, have no function in common: at link time, the slower copy of such a function
-# could replace the faster one.
+# ccd/ and oracle/, have no function in common. Otherwise, the linker could use the slower copy of
+# such a function in place of the faster one.
 # Usage: optimized_test.sh OBJECTS FAST_OBJECTS, each a list separated by blanks
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"

@@ -43,8 +43,8 @@ class PastedTest : public testing::CommandLine {
     return {run("shrink " + arguments + " --as c++").out, run("shrink " + arguments + " --as python").out};
   }
 
-  /// Whether a test in C++ passes with a detector that prints the coordinates it gets, and returns `answer`
-  /// and `time`.
+  /// Whether a test in C++ passes if its detector returns `answer` and `time`. The detector also prints the
+  /// coordinates that it gets.
   [[nodiscard]] bool passes_in_cpp(const std::string& test, const std::string& name,
                                    const std::string& answer, const std::string& time = "0") const {
     write("test.cpp", test +

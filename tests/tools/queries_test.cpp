@@ -142,7 +142,7 @@ class SeparationOption : public testing::CommandLine {
     return query.substr(0, query.size() - 1) + " " + separation + "\n";
   }
 
-  /// A subject that reports every pair, with t = 1/2 as a lower bound of the time.
+  /// A subject that reports every pair as a collision, with t = 1/2 as a lower bound of the time.
   const std::string promises = " --subject " + plugin("promises");
 };
 
@@ -158,7 +158,7 @@ TEST_F(SeparationOption, OracleSaysWhenTheDistanceFallsToIt) {
 }
 
 TEST_F(SeparationOption, OracleSaysYesToADistanceOfExactlyIt) {
-  for (const std::string method : {"filtered", "exact", "certificate", "all"})  // the distance ends at 1
+  for (const std::string method : {"filtered", "exact", "certificate", "all"})  // the distance falls to 1
     EXPECT_EQ(run("oracle --kind vt --toi --separation 1 miss.vt --method " + method).out,
               "1 0x1p+0 0x1p+0\n")
         << method;
@@ -200,7 +200,7 @@ TEST_F(SeparationOption, BenchTimesQueriesWithIt) {
   const json results = json_of(0, bench + " --separation 1.5")["results"];
   ASSERT_EQ(results.size(), 7);
   EXPECT_EQ(results[0]["input"], "q.vt~1.5");
-  EXPECT_EQ(results[0]["queries"], 2);  // the boxes of both queries are at most 1.5 apart
+  EXPECT_EQ(results[0]["queries"], 2);  // in each query, the two boxes are at most 1.5 apart
   EXPECT_EQ(results[1]["input"], "uniform~1.5");
   const json of_contact = json_of(0, bench)["results"][0];
   EXPECT_EQ(of_contact["input"], "q.vt");

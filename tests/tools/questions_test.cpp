@@ -37,7 +37,7 @@ TEST_F(CommandLine, SimulateShowsWhoTanglesTheCloth) {
   for (const char* counter : {"positives", "collisions", "tangled", "picojoules"})
     EXPECT_EQ(again["simulations"]["scene:sim:cloths@100"]["bullet"][counter], steps["bullet"][counter]);
   EXPECT_EQ(report_of("s.db", 1)["pictures"].size(), 2);
-  // The folder of a subject's frames is a scene. It has the mesh at the start and at the end of each step.
+  // The folder of a subject's frames is a scene, with the mesh at the start and at the end of each step.
   EXPECT_THAT(run("scene frames/exact --leave-out boxes").out, HasSubstr("exact: 26 frames, 72 vertices"));
   expect_refused("simulate cloths@100 --subject exact --frames frames", {"frames: exists already"});
   expect_refused("simulate cloths@16 --subject 'wang_3=exact,wang@3' --frames new",
@@ -124,8 +124,8 @@ class Questions : public CommandLine {
     return "step --subject " + plugin("steps") + ":defect=" + std::to_string(defect) + " ";
   }
 
-  /// Expects that a function without a defect fails on no query of any kind. `failures` is the key of the
-  /// number of failures in the JSON.
+  /// Expects that `command`, which asks a function without a defect, finds no failure for any kind of query.
+  /// `failures` is the key of the number of failures in the JSON.
   void expect_right(const std::string& command, const std::string& heading, const char* failures) const {
     const json all = json_of(0, command + "--cases 4000");
     EXPECT_THAT(read("error.txt"), HasSubstr(heading));
@@ -141,8 +141,8 @@ class Questions : public CommandLine {
   }
 
   /// Takes the query of the simplest failure that `command` finds. Expects that the same function fails again
-  /// if it is asked only this query. Expects that the function without a defect, which the command `right`
-  /// asks, answers this query correctly. Expects that the checker accepts the failure's certificate.
+  /// if it is asked only this query. Expects that the command `right`, which asks a function without a
+  /// defect, finds no failure on this query. Expects that the checker accepts the failure's certificate.
   void expect_finding(const std::string& command, const std::string& right,
                       const std::string& failure) const {
     const json finding = json_of(1, command + "--cases 2000")["findings"][0];

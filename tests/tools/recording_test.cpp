@@ -28,7 +28,7 @@ class Recording : public CommandLine {
     return json_of(code, "replay " + files + " --as-answered")["subjects"]["recorded"]["vt"];
   }
 
-  /// Records the answers in `lines`, each of which falling() has made, and judges the answers as `judged`
+  /// Records the answers in `lines`, which consist of lines from falling(). Judges the answers as `judged`
   /// does.
   [[nodiscard]] nlohmann::json judged_lines(int code, const std::string& lines) const {
     write("lines", lines);
@@ -55,11 +55,11 @@ TEST_F(Recording, HasTheLatestQueriesAndThoseThatAreKept) {
   EXPECT_EQ(fs::file_size(file("run.nmq")), 4096 + 20480);
   const auto counts = judged(1);
   EXPECT_THAT(read("error.txt"), Not(HasSubstr("left out")));
-  EXPECT_EQ(counts["queries"], 60 + 1);  // of the room for 80 records, a quarter is only for kept queries
+  EXPECT_EQ(counts["queries"], 60 + 1);  // a quarter of the room for 80 records is only for kept queries
   EXPECT_EQ(counts["false_negatives"], 6);
   expect_code(0, "convert run.nmq -o converted");
   EXPECT_THAT(read("converted/queries.vt"),
-              HasSubstr("\n0x1.00003e8p-2 "));  // the last query: 1/4 + 1000/2^30
+              HasSubstr("\n0x1.00003e8p-2 "));  // a coordinate of the last query: 1/4 + 1000/2^30
 }
 
 TEST_F(Recording, OfAProgramThatIsKilledIsWhole) {
@@ -125,7 +125,7 @@ TEST_F(Recording, OfAShorterOrLongerStepIsJudgedThere) {
   auto counts = judged(0);
   EXPECT_EQ(counts["queries"], 20);
   EXPECT_EQ(counts["false_negatives"], 0);
-  EXPECT_EQ(counts["collisions"], 18);  // answers with a time are judged in the whole step
+  EXPECT_EQ(counts["collisions"], 18);  // an answer with a time is judged for the whole step
   for (const char* tmax : {"0.75", "1.25"}) {
     ASSERT_EQ(record(std::string("20 tmax ") + tmax), 0);
     counts = judged(1);

@@ -63,7 +63,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
     EXPECT_EQ(finding["shrunk"], finding["original"]);
   expect_code(1, campaign + " --resume --db plain.db");
   json later = timeless_report("plain.db");
-  later["runs"] = report["runs"];  // they differ: only one command has --no-shrink
+  later["runs"] = report["runs"];  // the runs differ: only one command has --no-shrink
   EXPECT_EQ(json::diff(later, report), json::array());
 
   for (const std::string shard : {"2", "0", "1"})
@@ -86,7 +86,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
 }
 
 TEST_F(Resume, ResumesOnlyTheSameCampaign) {
-  expect_code(0, "fuzz --cases 100 --db a.db --resume");  // starts, because there is no store yet
+  expect_code(0, "fuzz --cases 100 --db a.db --resume");  // starts a campaign, because there is no store
   expect_refused("fuzz --cases 100 --seed 2 --db a.db --resume",
                  {"a.db: found a run with seed '1', expected '2'"});
   expect_refused("fuzz --cases 100 --subject basic --db a.db --resume",
@@ -111,7 +111,7 @@ TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
   ASSERT_EQ(again.rfind("nearmiss ", 0), 0);
   EXPECT_EQ(run(again.substr(9) + " --db again.db").code, code);
   json other = timeless_report("again.db");
-  other["runs"] = report["runs"];  // they differ: one command limits the cases, the other the time
+  other["runs"] = report["runs"];  // one command limits the cases, the other the time
   EXPECT_EQ(other, report);
 }
 

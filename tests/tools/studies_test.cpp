@@ -187,7 +187,7 @@ TEST_F(Paper, AClaimIsMeasuredByItsCommands) {
             "and " + std::to_string(too_small) + " are too small where end points of edges are beyond B",
             "audit"},
         Row{"planes", "holds", "together 0.2", "paper planes"},
-        Row{"order", "does not hold", "ε^0.250", "audit"},  // the paper's introduction says ε^⅓
+        Row{"order", "does not hold", "ε^0.250", "audit"},  // the paper's introduction claims ε^⅓
         Row{"gpu", "cannot be measured here", "", "paper gpu"}}) {
     const json found = claim(name);
     EXPECT_EQ(found["verdict"], verdict);

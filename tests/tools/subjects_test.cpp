@@ -132,7 +132,7 @@ TEST_F(CommandLine, APluginMayBeInAnyFolder) {
   for (const std::string& command : {fuzz, fuzz + "--resume", std::string("report a.db -o report")})
     expect_code(1, command, there);
   const std::string again = read_json(folder + "/report/report.json")["findings"][0]["again"];
-  EXPECT_THAT(again, HasSubstr(" --subject ./never.so "));  // the full path has a line end; a store has none
+  EXPECT_THAT(again, HasSubstr(" --subject ./never.so "));  // a store keeps no full path with a line end
 }
 
 TEST_F(CommandLine, TheLimitsOfAPublishedCcdAreThoseOfItsRun) {

@@ -78,7 +78,8 @@ TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
   const Output output = run("oracle --kind vt --distance q.vt", before);
   EXPECT_EQ(output.error, says);
   EXPECT_EQ(output.out, run("oracle --kind vt --distance q.vt").out);
-  // nearmiss also sets this arithmetic in the threads of a campaign, and in the processes of its plug-ins.
+  // nearmiss also sets rounding to nearest with subnormals in the threads of a campaign, and in the processes
+  // of its plug-ins.
   const auto positives = [&](const std::string& preload) {
     const json subjects =
         json_of(1,
@@ -99,7 +100,7 @@ TEST_F(CommandLine, ACampaignOutlastsALockOfItsStore) {
   {
     const testing::Database other(file("a.db"));
     other.execute("PRAGMA busy_timeout = 60000; BEGIN IMMEDIATE");
-    std::this_thread::sleep_for(std::chrono::seconds(3));  // longer than a save waits for the lock
+    std::this_thread::sleep_for(std::chrono::seconds(3));  // a save waits less long for the lock
     EXPECT_FALSE(campaign.has_ended()) << read("error.txt");
   }
   ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
@@ -113,7 +114,7 @@ TEST_F(CommandLine, ASceneOutlastsALockOfItsStore) {
   {
     const testing::Database other(file("a.db"));
     other.execute("PRAGMA busy_timeout = 60000; BEGIN IMMEDIATE");
-    scene.send(SIGINT);  // then it saves its results and its picture, while the store is locked
+    scene.send(SIGINT);  // now the scene must save its results and its picture, but the store is locked
     std::this_thread::sleep_for(std::chrono::seconds(4));
     EXPECT_FALSE(scene.has_ended()) << read("error.txt");
   }

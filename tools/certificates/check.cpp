@@ -8,7 +8,8 @@
 #include <valarray>
 
 using Json = nlohmann::json;
-static void from_json(const Json& from, mpq_class& to);  // the JSON library looks for it here, for arrays too
+// The JSON library looks for this function in the namespace of mpq_class, also to read arrays of fractions.
+static void from_json(const Json& from, mpq_class& to);
 
 namespace certificates {
 namespace {
@@ -138,8 +139,8 @@ std::vector<Integers> integers(const std::vector<Rationals>& rows) {
   return all;
 }
 
-// Below, Integers f are a polynomial f[0] + f[1] t + ... in the time t, of degree f.size() - 1 even if the
-// last coefficients are 0. The components of a Vector are such polynomials.
+// Below, the Integers f are the coefficients of a polynomial f[0] + f[1] t + ... in the time t. Its degree is
+// f.size() - 1, even if the last coefficients are 0. The components of a Vector are such polynomials.
 using Vector = std::array<Integers, 3>;
 
 Integers product(const Integers& f, const Integers& g) {

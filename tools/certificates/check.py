@@ -26,7 +26,7 @@ NUMBER = r'(-?)(\d+)(?:/0*([1-9]\d*))?|(-?0x[01])(?:\.([\da-f]+))?p([+-]?)(\d{1,
 # integer() converts 600 digits at a time, because the limit of int() may be as low as 640 digits.
 integer = lambda s: reduce(lambda n, d: n * 10 ** len(d) + int(d), re.findall('.{1,600}', s), 0)
 is_double = lambda v: abs(v) < 2**1024 - 2**970 and Fraction(float(v)) == v
-# Reads an object as a tuple of pairs, and a number outside a string as its length. Refuses NaN.
+# Reads an object as a tuple of pairs, and any unquoted number as its text's length. Refuses NaN.
 JSON = JSONDecoder(object_pairs_hook=tuple, parse_int=len, parse_float=len, parse_constant=int)
 Statement = namedtuple('Statement', 'kind x h claim from_ to open strict')
 
@@ -130,7 +130,7 @@ def at(s, vectors, body):
 
 def bracket(s, vectors, body):
     """At a time in [p, q], F = n . (x2 - x0) is zero, so all vertices are in one plane. At this
-    time, weights / n . n are positive: barycentric coordinates of a common point of A and B."""
+    time, all weights / n . n are positive, and are barycentric coordinates of a common point."""
     p, q = numbers(body['bracket'], [2])
     require(s.h == 0 and s.from_ <= p < q <= s.to, 'h is not 0, or not from <= p < q <= to')
     *x, h = forms(vectors, p, q)

@@ -18,14 +18,14 @@ if("tests" IN_LIST NEARMISS_COMPONENTS)
   endforeach()
 endif()
 
-# The component tools includes all that the component trial needs.
+# The component "tools" includes all that the component "trial" needs.
 if("tools" IN_LIST NEARMISS_COMPONENTS OR "trial" IN_LIST NEARMISS_COMPONENTS)
   set(NEARMISS_HOLDS_TRIALS ON)
 else()
   set(NEARMISS_HOLDS_TRIALS OFF)
 endif()
 
-# The component ccd is made of headers, and needs only Eigen.
+# The component "ccd" consists of headers, and needs only Eigen.
 set(NEARMISS_HEADERS_ONLY OFF)
 if(NEARMISS_COMPONENTS STREQUAL ccd AND NOT NEARMISS_ENVIRONMENT AND NOT NEARMISS_LIBFUZZER)
   set(NEARMISS_HEADERS_ONLY ON)

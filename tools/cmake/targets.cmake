@@ -106,7 +106,7 @@ function(nearmiss_tests folder)
   gtest_discover_tests(${folder}_tests TEST_PREFIX ${folder}. NO_PRETTY_VALUES PROPERTIES TIMEOUT 600 DISCOVERY_TIMEOUT 60)
 endfunction()
 
-# nearmiss_uses_cgal(TARGET): makes the settings for a target that includes CGAL's number types.
+# nearmiss_uses_cgal(TARGET): sets up a target that includes CGAL's number types.
 function(nearmiss_uses_cgal target)
   target_link_libraries(${target} PRIVATE CGAL::CGAL)
   # The compiler must know that interval arithmetic changes the rounding mode.

@@ -188,7 +188,7 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
 struct Results {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   BenchRun run{.about = environment(), .times = {}};
-  Statistics answered;  ///< only queries and faults, and misses if answers are judged
+  Statistics answered;  ///< counts queries and faults and, if answers are judged, collisions and misses
 };
 
 void add_rows(Results& results, const Subjects& subjects, const Input& input, Kind kind,
@@ -267,7 +267,7 @@ int run(const BenchOptions& options) {
   try {
     const auto time = [&](const Input& input) { time_input(subjects, input, options, stop, out, results); };
     std::ranges::for_each(files, time);
-    for (const Family& family : families)  // one at a time, because of their memory
+    for (const Family& family : families)  // one at a time, because their queries need much memory
       time(family_input(family, options.queries, options.separation, stop));
   } catch (const Stopped&) {  // still reports the inputs that were timed before the stop
   }

@@ -100,8 +100,8 @@ void show_ordinary_miss(const Finding& finding, const PlainMiss& miss) {
   fmt::print("\n");
 }
 
-/// Prints the answers of wang and basic to an ordinary query. Then prints a query that basic misses in
-/// families that are not ordinary, in simplified form.
+/// Prints the answers of wang and basic to an ordinary query. Then prints, in simplified form, a collision
+/// that basic misses in a family that is not ordinary.
 void show_exotic_miss(const Query& ordinary) {
   const auto answer = [&](const Subject& subject) {
     return subject.decide(ordinary).hit ? "reports" : "misses";

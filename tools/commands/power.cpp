@@ -113,7 +113,7 @@ std::string output_of(const std::string& command) {
     if (interrupted()) {
       const auto now = std::chrono::steady_clock::now();
       kill_at = std::min(kill_at, now + std::chrono::seconds(1));
-      for (const pid_t each : {-process, process})  // the command may have left its group
+      for (const pid_t each : {-process, process})  // the command may have left its process group
         if (!has_ended) kill(each, now < kill_at ? SIGTERM : SIGKILL);
       if (now > kill_at + std::chrono::milliseconds(500)) break;
     }

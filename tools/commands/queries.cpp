@@ -67,8 +67,8 @@ const char* show(const Answer& answer, Claim claim) {
   return said.value_or(false) ? "1" : "0";
 }
 
-/// The answer of `method`: "filtered", the oracle as trials use it; the name of an exact method; or "all",
-/// the answer that all exact methods give. Throws Disagreement for "all" if their answers differ.
+/// The answer of a method: of the oracle as trials use it ("filtered"), of one exact method (its name), or of
+/// all exact methods ("all"). Throws Disagreement for "all" if the answers of these methods differ.
 const char* answer_by(const std::string& method, const Query& query) {
   if (method == filtered) return show(to_answer(query, decide(query)), Claim::complete);
   if (method == all_methods) {
@@ -232,8 +232,8 @@ struct VerdictOptions {
   bool rounded = false;
 };
 
-/// The distance bound by which a false positive of the subject is judged. This is the bound that the subject
-/// claims, such as " 0x1p-9 claimed", or, if it claims none, wang's bound, such as " 0x1p-9 wang".
+/// The distance bound by which a false positive of the subject is judged. Returns the bound that the subject
+/// claims (" 0x1p-9 claimed") or, if the subject claims none, wang's bound (" 0x1p-9 wang").
 std::string show_distance_bound(const Subject& subject, const Judge& judge, const Query& query) {
   const BoundAnswer answer = judge.ask_unit(query);
   if (answer.fault == Fault::error)

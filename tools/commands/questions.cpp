@@ -31,7 +31,7 @@ struct QuestionsOptions {
 
 constexpr const char* usual_time = "20s";
 
-/// What differs between the two commands: their texts, and whether a command asks families at rest.
+/// The differences between the two commands: their texts, and whether they ask families at rest.
 struct Command {
   const char *name, *help;
   const char* function;   ///< the function of the plug-in interface that answers the question

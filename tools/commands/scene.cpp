@@ -40,7 +40,7 @@ struct SceneOptions {
   std::string leave_out = "all", thickness;
   SeparationOption separation;
   bool list = false, weld = false, plan_only = false, verify_plan = false;
-  std::uint64_t around = 10000;  ///< queries around the scene's pairs
+  std::uint64_t around = 10000;  ///< number of queries to ask around the scene's pairs
   fs::path export_to;
   RecordOptions record;
 };
@@ -105,7 +105,7 @@ RunInfo info_of(const SceneOptions& options, const SceneSubjects& all) {
 }
 
 struct Held {
-  std::string scene;  ///< the scene's name and size; "" if a stop came first
+  std::string scene;  ///< the text of describe(); "" if a stop came before the first step
   Verification verification;
   std::chrono::duration<double> asking{};  ///< time spent on asking the subjects
 };
@@ -128,7 +128,7 @@ Held hold_trials(const SceneOptions& options, const Scene& scene, const Subjects
   Held held;
   Progress progress(options.record.quiet);
   const auto begun = std::chrono::steady_clock::now();
-  const double asking = options.verify_plan ? 0.03 : 1;  // part of a step's time; verifying takes the rest
+  const double asking = options.verify_plan ? 0.03 : 1;  // share of a step's time; verifying takes the rest
   const auto show = [&](const char* what, std::size_t step, double part) {
     if (!progress.due()) return;
     const double done = (static_cast<double>(step) + part) / static_cast<double>(scene.steps());
@@ -211,7 +211,7 @@ std::string hunt_around(const SceneOptions& options, const Family& family, const
   const CampaignProgress reached = run_campaign(
       plan, subjects,
       [&](TrialResult&& result, const CampaignProgress& now) {
-        std::map<std::size_t, Finding> shrunk;  // by the finding's number among all findings of the command
+        std::map<std::size_t, Finding> shrunk;  // keys: the findings' numbers in the command's record
         for (auto& [number, finding] : result.shrunk) shrunk[before + number] = std::move(finding);
         result.shrunk = std::move(shrunk);
         record.add(std::move(result));
@@ -272,7 +272,7 @@ int run(SceneOptions options) {
   std::string longer;
   if (!few.empty() && !stop.is_requested()) {
     const bool is_own_bound =
-        options.bounds == SceneOptions().bounds;  // any other bound may be too small around the pairs
+        options.bounds == SceneOptions().bounds;  // another bound may be too small for queries around pairs
     try {
       const auto family = family_around(options, scene);
       if (family) longer = longer_hunt(options);

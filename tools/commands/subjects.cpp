@@ -86,7 +86,7 @@ void print_targets(const std::vector<std::string>& texts) {
   }
 }
 
-/// What a published CCD is, or why it cannot be put on trial.
+/// Says what a published CCD is, or why it cannot be put on trial.
 std::string about(const Peer& peer) {
   if (!is_built(peer)) return fmt::format("not built: {}", how_to_build(peer));
   try {
@@ -178,9 +178,9 @@ std::vector<std::string> sweep_names() {
   return names;
 }
 
-/// A completion script for bash. The script completes subcommands, options, the last name in a list of
-/// families, sweeps or subjects (which may be files), and files everywhere else. Bash passes "--option=value"
-/// to the script as three words.
+/// A completion script for bash. The script completes subcommands and options. In a list of families, sweeps
+/// or subjects (which may be files), it completes the last name; everywhere else, it completes the names of
+/// files. Bash passes "--option=value" to the script as three words.
 std::string bash_script(const CLI::App& app) {
   std::vector<std::string> names;
   std::string options;

@@ -25,7 +25,7 @@ struct TightnessOptions {
   std::vector<std::string> names{"all"}, values;
   bool among_vertices = false;
   std::string time;
-  CampaignOptions campaign;  ///< used for --values; for tolerances, only its seed, jobs and record
+  CampaignOptions campaign;  ///< with --values; without --values, only its seed, jobs and record count
 };
 
 constexpr const char* usual_time = "60s";

@@ -98,8 +98,8 @@ BothKinds pairs_at(double speed, const Stop& stop) {
           count_random_pairs(Kind::edge_edge, speed, some_pairs, 1, stop)};
 }
 
-/// The paper's claim of a small overhead holds if the ratio of run times is at most this. This limit leaves
-/// room for the noise of a busy machine.
+/// The largest ratio of run times for which the paper's claim of a small overhead holds. It leaves room for
+/// the noise of a busy machine.
 constexpr double small_overhead = 1.1;
 
 std::string in_words(const Ratios& ratios) {
@@ -321,7 +321,7 @@ Measured vertex_edge_culling(const Results& results, const Stop& /*stop*/) {
                                                {"wang-eps:h=0.001", "with the author's 0.001"},
                                                {"wang-scalar", "with an interval for each root"}}};
   const char* const nearly_none = "wang-eps:h=1e-300";
-  const auto eliminated = [&](const char* subject, const char* kind) {  // of all tests, in percent
+  const auto eliminated = [&](const char* subject, const char* kind) {  // percentage of all tests
     const auto all =
         vertex_edge_tests(results[0], nearly_none, kind) + rejected(results[0], nearly_none, kind, "no-root");
     return 100 *

@@ -101,9 +101,9 @@ py::array_t<T> one_for_each(const Queries& queries) {
   return py::array_t<T>(static_cast<py::ssize_t>(queries.size()));
 }
 
-/// Calls ask(part, first) for one part of the queries after the other; `first` is the number of the part's
-/// first query. Between parts, at most every tenth of a second, lets Python handle signals. If queries are
-/// slow, takes smaller parts, so that signals do not wait long. Stops at the first status other than
+/// Divides the queries into parts, and calls ask(part, first) for each part in turn; `first` is the number of
+/// the part's first query. Between parts, at most ten times a second, lets Python handle signals. If queries
+/// are slow, takes smaller parts, so that signals do not wait long. Stops at the first status other than
 /// NEARMISS_OK, and returns this status. Also stops when the interpreter exits.
 template <class Ask>
 int ask_until_the_end(const Queries& queries, const Ask& ask) {

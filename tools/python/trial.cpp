@@ -108,7 +108,7 @@ void let_python_handle_signals() {
 /// A function that receives the number of decided cases and the number of misses so far.
 using Report = std::function<void(std::uint64_t cases, std::uint64_t missed)>;
 
-/// For each subject, what is known from its answers to earlier cases of the batch's kind and family.
+/// For each subject, what earlier cases of the batch's kind and family show about the subject.
 std::vector<Known> known_before(const Batch& batch, const Subjects& subjects, const SoFar& so_far) {
   std::vector<Known> known;
   for (const auto& subject : subjects)
@@ -144,7 +144,7 @@ TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const
   return result;
 }
 
-/// Shrinks the first `of_each` findings of each way to fail (signature) and class of queries.
+/// For each way to fail (signature) and each class of queries, shrinks the first `of_each` findings.
 void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each,
             const Stop& stop) {
   const FindingShrinker shrinker(pointers_to(subjects), stop, limits_in_campaign);

@@ -85,19 +85,20 @@ inline constexpr std::size_t constraint_count = 18;
 ///
 /// Why the constraints suffice, in short: if the area test passes, r bounds a distance at the computed root.
 /// For vertex-triangle, this is the distance of the vertex from the triangle's plane; for edge-edge, the
-/// distance between the lines of the two edges. If a collision fails a test, a vertex comes within R of an
-/// edge at some time, because something is small (two-event analysis, §3.3.1): the triangle (its inscribed
-/// circle) or the quadrilateral, an edge, a height, or a weight. VE reports this vertex, unless its length or
-/// weight test fails; then the vertex is within D of an end of the edge, and VV reports it.
+/// distance between the lines of the two edges. If a collision fails a test, one of these is small: the
+/// triangle (its inscribed circle) or the quadrilateral, an edge, a height, or a weight. Then a vertex comes
+/// within R of an edge at some time (two-event analysis, §3.3.1). VE reports this vertex, unless its length
+/// or weight test fails; then the vertex is within D of an end of the edge, and VV reports it.
 ///
 /// The p of a pair that does not collide may be as large as 2B at t = 1. This at most doubles the errors of
 /// the weights, and with them the distance of a false positive from the line of an edge.
 ///
-/// The constraints differ from the paper's (2) and (3) in two points. A false positive can arise in two ways;
-/// the paper takes the minimum of the two distances, where the maximum is correct. The paper also fixes E_vt
-/// at 21/4 ε^½ in (2), and E_ee at 4 ε^½ in (3); with each of these values, the rounding error of the height
-/// test adds 4 ε^½ to η. The paper's claim that the shorter edge of the quadrilateral is below √τ (§3.4.1)
-/// does not hold for edges that are nearly parallel, but the conclusions from this claim hold.
+/// The constraints differ from the paper's (2) and (3) in two points. A false positive can arise in two ways,
+/// which have different largest distances; the paper takes their minimum, where the maximum is correct. The
+/// paper also fixes E_vt at 21/4 ε^½ in (2), and E_ee at 4 ε^½ in (3); with each of these values, the
+/// rounding error of the height test adds 4 ε^½ to η. The paper's claim that the shorter edge of the
+/// quadrilateral is below √τ (§3.4.1) does not hold for edges that are nearly parallel, but the conclusions
+/// from this claim hold.
 template <class Number>
 auto constraints(const Tolerances<Number>& tol, const Number& E_vt, const Number& E_ee,
                  const RoundingErrors<Number>& errors) {

@@ -8,10 +8,10 @@ namespace nearmiss::proven {
 // to nearest (u = ε/2).
 //
 // For each bound, a row in tests/proofs/ records the formulas of ccd/, and Gappa proves the bound with 11, 53
-// and 256 bits. That is enough for every ε <= 2^-10. Gappa adds and multiplies bounds, so each bound that it
-// proves is a polynomial in u with no negative coefficient and no constant term (or such a polynomial divided
-// by 1 minus another one). Such a bound, divided by u, still grows with u, so the quotient is largest for 11
-// bits.
+// and 256 bits. These proofs suffice for every ε <= 2^-10. Gappa adds and multiplies bounds, so each bound
+// that it proves is a polynomial in u with no negative coefficient and no constant term (or such a polynomial
+// divided by 1 minus another one). Such a bound, divided by u, still grows with u, so the quotient is largest
+// for 11 bits.
 //
 // `far` in a name means that some vectors are only within 2B: the p of two edges for t > 0, and the x_0i of
 // the vertex-edge tests of two edges at all times. All other vectors are within B. The paper assumes that all
@@ -35,13 +35,13 @@ inline constexpr double inside_ve = 32.09;  ///< a weight compared with ‖x_ji�
 inline constexpr double inside_ve_far = 45.12;
 inline constexpr double F_ve = 40.63;  ///< F_0ij for S <= B
 inline constexpr double F_ve_far = 72.72;
-inline constexpr double F_ve_far_without_S = 70.22;  ///< F_0ij for any S: plus F_ve_of_S times S/B
+inline constexpr double F_ve_far_without_S = 70.22;  ///< F_0ij for any S, if F_ve_of_S times S/B is added
 inline constexpr double F_ve_of_S = 3.005;
 
 // vertex_vertex.hpp
 inline constexpr double squared_distance = 10.1;  ///< at a given time, for exact vectors
 inline constexpr double squared_distance_far = 34.31;
-inline constexpr double distance_of_vectors = 6.01;  ///< squared distance: only from the vectors' rounding
+inline constexpr double distance_of_vectors = 6.01;  ///< squared distance: from the vectors' rounding alone
 inline constexpr double distance_of_vectors_far = 18.02;
 inline constexpr double dot = 4.02;    ///< x·v and v·v, for exact vectors
 inline constexpr double time = 11.87;  ///< -x·v / v·v for ‖v‖∞ = B, for exact vectors

@@ -184,16 +184,16 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
 }
 
 /// The tolerances with the smallest distance bound: 11.9 B ε^¼ for double and wider scalars, 12.1 B ε^¼ for
-/// float. They are failure-proof for every scalar of 11 to 256 bits that rounds to nearest, for the
-/// coordinates as the scalar represents them: a narrow scalar rounds them first.
+/// float. They are failure-proof for every scalar of 11 to 256 bits that rounds to nearest. A scalar that is
+/// narrower than double rounds the coordinates first; then this holds for the rounded coordinates.
 template <class T>
 Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);
 }
 
-/// The tolerances for the question whether a vertex comes within R of an edge. They are `tol`, the tolerances
-/// for B, except for S = √8 R, ρ = ε, the least ψ, and a λ² for which D² is nearly the smallest. For S = 0,
-/// λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ; for large S, it is smallest at λ³ = 4Sψ.
+/// The tolerances for the question whether a vertex comes within R of an edge. They differ from `tol`, the
+/// tolerances for B, in these: R, S = √8 R, ρ = B²ε, the least ψ, a λ² for which D² is nearly the smallest,
+/// and this D². For S = 0, λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ; for large S, it is smallest at λ³ = 4Sψ.
 template <class T>
 Tolerances<T> tight_tolerances_of_edge(Tolerances<T> tol, const T& B, const T& R) {
   using std::max;
@@ -222,8 +222,8 @@ Tolerances<T> tight_tolerances_of_edge(Tolerances<T> tol, const T& B, const T& R
   return tol;
 }
 
-/// The rule that gives `tight_tolerances` and `tight_tolerances_of_edge`, but the paper's tolerances for two
-/// vertices.
+/// The rule whose tolerances are `tight_tolerances`, `tight_tolerances_of_edge` and, for two vertices, the
+/// paper's.
 struct TightTolerances {
   template <class T>
   Tolerances<T> operator()(T B) const {

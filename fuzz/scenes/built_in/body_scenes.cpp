@@ -18,7 +18,7 @@ struct Pose {
   Vector3<double> place;
 };
 
-/// A scene of bodies; body i has shape i, and the list of shapes repeats.
+/// A scene of bodies. Body i has the shape with number i modulo the number of shapes.
 Scene scene_of_bodies(std::size_t frames, const std::vector<Mesh>& shapes, int count,
                       const std::function<Pose(int body, double frame)>& pose) {
   const auto shape = [shapes](int body) -> const Mesh& {

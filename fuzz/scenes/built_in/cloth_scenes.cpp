@@ -21,8 +21,8 @@ constexpr int spike_triangles = spike_sides * (2 * spike_rings - 1);
 constexpr double pitch = 10;  // the distance between spikes, so that each has 200 triangles of cloth
 constexpr double tip = 5;     // the height of a spike
 
-/// The height of a spike, a cone with a round tip, at a distance from its axis; the cloth on it has the same
-/// shape.
+/// The height of a spike at a distance from its axis. A spike is a cone with a round tip, and the cloth on it
+/// has the same shape.
 double spike_height(double distance) { return tip - 1.5 * (std::sqrt(distance * distance + 1) - 1); }
 
 void add_spike(Mesh& mesh, int first) {

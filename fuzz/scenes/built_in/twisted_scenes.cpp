@@ -127,8 +127,8 @@ Scene hair(int size) {
 // --- mat --------------------------------------------------------------------------------------------------
 
 /// A cross-section of the rolled mat, with a point for each column. It consists of two spirals from the
-/// middle, whose arms are pi / (2 tightness) apart. Rolling moves a point from distance s to distance s /
-/// sqrt(1 + tightness s) from the axis, and the total length of the spirals is the width of the mat.
+/// middle, whose arms are pi / (2 tightness) apart. Rolling moves a point whose distance from the axis is s
+/// to the distance s / sqrt(1 + tightness s). The total length of the spirals is the width of the mat.
 PointList rolled(int squares, double tightness) {
   constexpr int substeps = 16;
   constexpr double turns_of_a_radian = 0.15915494309189535;

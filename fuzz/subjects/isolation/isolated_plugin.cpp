@@ -166,8 +166,8 @@ class IsolatedPlugin final : public DescribedSubject {
     return is_asked(query.kind, query.separation > 0);
   }
 
-  /// The size of the next batch, which begins with the first query: its queries have the same kind, the
-  /// plug-in can decide either all of them or none, and a worker can get them at once.
+  /// The size of the next batch, which begins with the first query. All queries of a batch have the same
+  /// kind, the plug-in can decide either all of them or none, and a worker can get them at once.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
@@ -227,7 +227,7 @@ class IsolatedPlugin final : public DescribedSubject {
       const std::uint32_t last = first + std::min(end_of_call - first, part);
       std::optional<WorkerFailure> failure = worker->perform(request, batch.subspan(first, last - first));
       if (failure) failure->query += first;
-      code_->expect_unchanged(*limits_.stop);  // a write to the file can also change running processes
+      code_->expect_unchanged(*limits_.stop);  // a write to the file may change the code of running processes
       if (repeated.empty()) adapt(last - first, *worker, failure);
       if (failure && failure->suspects != 0) {
         take_part(first, failure->query, std::nullopt, false);
@@ -255,7 +255,7 @@ class IsolatedPlugin final : public DescribedSubject {
   /// Queries that are asked again in parts, to find the query that is to blame for a failure.
   struct Repeated {
     std::uint32_t end, part;
-    std::optional<WorkerFailure> failure;  ///< set until a query is blamed for it
+    std::optional<WorkerFailure> failure;  ///< the failure, until a query is blamed for it
   };
 
   /// The size of the parts in which `size` queries are asked again.

@@ -83,8 +83,9 @@ PluginFile::Snapshot PluginFile::snapshot_of(const Stamp& stamp) const {
   constexpr std::chrono::seconds coarsest_tick(2);  // on FAT
   const auto now = std::chrono::steady_clock::now();
   const auto first_seen = stamp == last_.stamp ? last_.first_seen : now;
-  // The stamp is recent only while both comparisons hold. The second comparison is necessary because, if the
-  // file system's clock is ahead of ours, the first comparison holds for too long.
+  // The stamp is recent only while both comparisons hold. If the file system's clock is ahead of ours, the
+  // first one holds for too long, but the second one holds only for two seconds after the stamp was first
+  // seen.
   const bool is_recent =
       std::time(nullptr) <= stamp.changed.tv_sec + coarsest_tick.count() && now <= first_seen + coarsest_tick;
   return {stamp, first_seen, is_recent};

@@ -30,7 +30,7 @@ enum class Request : std::uint8_t {
   time_each,     ///< measures the time of each query
   bounds,        ///< gives the distance bound of each query
   distances,     ///< gives the distance of the first query's primitives
-  steps,         ///< filters the first query's step
+  steps,         ///< gives the positions to which the first query's vertices may safely move
 };
 
 /// A message that requests something about a batch of queries of one kind. The number distinguishes the
@@ -110,9 +110,9 @@ struct SharedAnswers {
   std::atomic<std::uint32_t> current{0};         ///< the query that is asked, or the first of several
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
-  std::array<double, 12> more{};                 ///< weights of the closest points, or the filtered step
+  std::array<double, 12> more{};                 ///< weights of the closest points, or the safe positions
   std::uint64_t nanoseconds = 0;                 ///< measured by decide_timed
-  std::uint64_t kernel_nanoseconds = 0;          ///< as the plug-in states; 0 if it does not
+  std::uint64_t kernel_nanoseconds = 0;          ///< without copies, as the plug-in states; 0: not stated
   std::array<char, 256> exception{};             ///< what() of an exception that the plug-in did not catch
   std::atomic<std::uint64_t> threw{0};           ///< the number of the last call that an exception ended
   // Written when the plug-in has been loaded:

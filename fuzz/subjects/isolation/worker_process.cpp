@@ -59,7 +59,7 @@ std::string name_of_batch(const DetectorInfo& info, std::size_t queries) {
   return fmt::format("{}: a batch of {} queries", info.name, queries);
 }
 
-/// Throws Error if the description of a plug-in has a fault; "" is no fault.
+/// Throws Error with the fault of a plug-in's description, unless `fault` is "".
 void expect_no(const std::string& fault) {
   if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
@@ -168,7 +168,7 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   try {
     load(file.name());
   } catch (const Error&) {
-    file.expect_unchanged(*limits_.stop);  // if the file was changed, that is the reason
+    file.expect_unchanged(*limits_.stop);  // throws if the file was changed, which is then the reason
     throw;
   }
   file.expect_unchanged(*limits_.stop);  // otherwise, the worker might have loaded other bytes
@@ -328,7 +328,7 @@ WorkerProcess::End WorkerProcess::ask(const Call& call, const Elapsed& of_query,
 WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
   constexpr int look_again_ms = 10;
   constexpr Duration longest_turn = milliseconds(100);
-  constexpr int most_looking = 10;  // looking takes at most a tenth of the time
+  constexpr int most_looking = 10;  // looking at other processes takes at most a tenth of the time
   constexpr std::uint64_t calls_between_looks = 16;
   const bool looks =
       others_compute_ || (call.number + 1) % calls_between_looks == 0;  // false while the plug-in is loaded

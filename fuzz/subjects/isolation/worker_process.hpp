@@ -39,9 +39,9 @@ struct PluginLimits {
 /// The most queries that a worker gets at once: as many as the detector wants, but at least least_capacity.
 constexpr std::size_t capacity_for(const DetectorInfo& info) { return std::max(least_capacity, info.batch); }
 
-/// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries, or for the
-/// largest batch that the worker takes, if this has fewer queries. Throws a TrialError if this memory exceeds
-/// the plug-in's limit.
+/// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries; if the worker
+/// takes only smaller batches, for the largest of these. Throws a TrialError if a batch of more than
+/// least_capacity queries needs more memory than the plug-in's limit.
 std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits);
 
 /// A request about several queries may take this many times the limit of one query.
@@ -175,10 +175,10 @@ class WorkerProcess {
   bool is_waiting_ = false;      ///< whether the worker waits for a call
   std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< set by dismiss()
   Elapsed elapsed_;                                                 ///< of the last call
-  ComputingTime others_;         ///< of all processes of the worker except the plug-in's
+  ComputingTime others_;         ///< of all processes of the worker except the plug-in's process
   bool others_compute_ = false;  ///< whether a process that the plug-in has started computes
   Duration suspended_{};         ///< the time for which nearmiss was suspended during all calls so far
-  Duration least_{};             ///< the least possible time of the last call
+  Duration least_{};             ///< lower limit of measured() for the last call
   DetectorInfo info_;
   std::vector<std::string> names_;
 };

@@ -39,7 +39,7 @@ class Adaptive final : public BatchSubject {
     for (std::size_t i = 0; i < queries.size(); ++i)
       if (verdicts[i].hit) reported[count++] = i;
     if (count == 0) return;
-    std::vector<Query> again;  // no array of `at_once` queries, because making that takes longer than wang
+    std::vector<Query> again;  // a vector: to make an array of `at_once` queries takes longer than wang
     again.reserve(count);
     for (std::size_t i = 0; i < count; ++i) again.push_back(queries[reported[i]]);
     std::array<FilterStage, at_once> stages;

@@ -7,8 +7,8 @@
 // Question: contact, or a separation, which the code calls thickness. The time of impact is a lower bound.
 // The code takes displacements, which this adapter computes with rounding errors. The option eta is the share
 // of the distance at t = 0 that remains at the given time.
-// Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures this, and the
-// code divides by the distance.
+// Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures this, which the
+// code needs, because it divides by the distance.
 // $CODIM_IPC is the repository, whose headers contain the whole code, and include pybind11:
 //
 //   tools/subject --pkg-config 'eigen3 python3-embed' fuzz/subjects/peers/codim-ipc.cpp --
@@ -32,11 +32,11 @@ struct Settings {
 
 constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"eta", &Settings::eta, 1e-3, 0.999}}};
 
-/// Converts a vertex to this type, for templates that deduce the type of its coordinates.
+/// Converts a vertex to this type, because the CCD's templates deduce the type of its coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Makes a function that asks the CCD about primitives with n vertices in all if their boxes meet, and
-/// otherwise reports no collision.
+/// Makes a function that decides a query with n vertices. If the boxes meet, it asks the CCD; otherwise, it
+/// reports no collision.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {

@@ -1,12 +1,12 @@
 // CTCD, Etienne Vouga's library. With a numerical solver for polynomials of degree up to 6, it decides
-// whether primitives come within a thickness eta. This adapter asks what src/CTCDNarrowPhase.cpp asks: for a
-// vertex and a triangle, also about the vertex with each edge and corner; for two edges, also about each end
-// with the other edge, and about each end with each end of the other edge. CTCD's header says: "WARNING: Does
-// not work correctly if two edges are parallel at the time of intersection -- vertexEdgeCTCD should catch
-// this case". The narrow phase uses no times, so the adapter passes none on.
+// whether primitives come within a thickness eta. This adapter asks what src/CTCDNarrowPhase.cpp asks. For a
+// vertex and a triangle, this includes the vertex with each edge and each corner; for two edges, it includes
+// each end with the other edge and with each end of the other edge. CTCD's header says: "WARNING: Does not
+// work correctly if two edges are parallel at the time of intersection -- vertexEdgeCTCD should catch this
+// case". The narrow phase uses no times, so the adapter passes none on.
 // Source: github.com/evouga/collisiondetection, e5fe5c9. Licence: none stated.
-// Question: a separation, which becomes CTCD's eta. eta is at least the value of the option eta=1e-6, also
-// for contact, as in example/testCTCD.cpp: with an eta of 0, CTCD finds no collision.
+// Question: a separation, which becomes CTCD's eta. The option eta=1e-6 is the least eta, also for contact,
+// as in example/testCTCD.cpp, because CTCD finds no collision with an eta of 0.
 // Contract: the primitives are farther apart at t = 0 than eta. CTCD's velocity filter refuses a start that
 // is closer (STARTING_STATE_INTERSECTS in VelocityFilter.h).
 // $CTCD is the repository:

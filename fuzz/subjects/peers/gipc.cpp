@@ -6,8 +6,8 @@
 // code answers with the time that it has reached.
 // Source: github.com/KemengHuang/GPU_IPC, 46594e0. Licence: MPL 2.0.
 // Question: contact; the time of impact is a lower bound. The code takes displacements, which this adapter
-// computes with rounding errors. At the time of impact that the code gives, the share eta (an option) of the
-// distance at t = 0 remains.
+// computes with rounding errors. The option eta is the share of the distance at t = 0 that remains at the
+// time of impact that the code gives.
 // Contract: apart at t = 0. The solver ensures this, and the code divides by the distance.
 // $GPU_IPC is the repository, and $CUDA is the folder of CUDA's headers. No GPU is needed:
 //

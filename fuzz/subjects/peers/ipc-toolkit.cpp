@@ -6,9 +6,9 @@
 //   ipc-inexact          InexactCCD, the original method of IPC, off by default: CTCD with a
 //                        minimum distance of 0.2 d0
 //
-// If the time is below 1e-6, both CCDs start again, with only the separation as the minimum distance, and
-// answer with 0.8 of the time that they then find. The minimum distance makes room for the barrier; by
-// design, it turns some near misses into collisions.
+// A CCD that finds a time below 1e-6 starts again, with only the separation as the minimum distance, and
+// answers with 0.8 of the new time. The minimum distance makes room for the barrier; by design, it turns some
+// near misses into collisions.
 // Source: github.com/ipc-sim/ipc-toolkit, b40e9c07, with CTCD from github.com/evouga/collisiondetection,
 // e5fe5c9. Licence: MIT; CTCD states none.
 // Question: contact, or a separation; the time of impact is a lower bound. Contract: none. Primitives that

@@ -1,10 +1,10 @@
 // libuipc's additive CCD, src/backends/cuda/utils/distance/ccd.h. It is CUDA code for both device and host,
 // here compiled for the host. On a GPU, the compiler fuses multiplications with additions, which may change
 // the last bits. This adapter does what filter_toi() in lbvh_simplex_trajectory_filter.cu does: it first asks
-// whether the boxes of the two motions come within d_hat + thickness, and then calls the CCD with eta = 0.1
-// and at most 1000 iterations. If the iterations run out, the CCD reports a collision at the time that it has
-// reached. The CCD looks for contact until t = 1.1; a time after 1 does not shorten the step, and counts as
-// no collision.
+// whether the boxes of the two motions come within d_hat + thickness of each other, and then calls the CCD
+// with eta = 0.1 and at most 1000 iterations. If the iterations run out, the CCD reports a collision at the
+// time that it has reached. The CCD looks for contact until t = 1.1; a time after 1 does not shorten the
+// step, and counts as no collision.
 // Source: github.com/spiriMirror/libuipc, 619a5412, with github.com/MuGdxy/muda, 6c752f9c. Licence: Apache
 // 2.0.
 // Question: contact, or a separation, which libuipc calls thickness. The time of impact is a lower bound. The
@@ -46,7 +46,7 @@ Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {
-    double toi = 1.1;  // the value if there is no contact
+    double toi = 1.1;  // unchanged if there is no contact
     const bool collides = nearmiss::plugin::with_displacements<n>(q, [&](const auto&... v) {
       return boxes(vector(v)..., set.d_hat + q.separation) &&
              test(vector(v)..., 0.1, q.separation, 1000, toi);

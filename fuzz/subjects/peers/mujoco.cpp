@@ -1,10 +1,10 @@
 // MuJoCo's conservative advancement of deformables, mjc_advance() in
 // src/engine/engine_collision_continuous.c. It answers with alpha, the part of the step that may be taken:
 // the whole step, or a part in which no pair's gap shrinks by more than 80 %. It promises that the advanced
-// configuration has no intersection. Therefore alpha < 1 counts as a collision, and alpha as a lower bound of
-// its time; a false positive says only that a gap shrinks by more than 80 %. As in MuJoCo's own test, the
-// adapter passes one pair of a flex vertex and a flex triangle, or of two flex edges, and all vertices are
-// free.
+// configuration has no intersection. Therefore, alpha < 1 counts as a collision, and alpha is a lower bound
+// of the time of impact. A false positive says only that a gap shrinks by more than 80 %. As in MuJoCo's own
+// test, the adapter passes one pair of a flex vertex and a flex triangle, or of two flex edges, and all
+// vertices are free.
 // Source: github.com/google-deepmind/mujoco, a7255075b. Licence: Apache 2.0.
 // Question: contact; the time of impact is a lower bound. With same-flex=1, both primitives belong to one
 // flex (a deformable), and their mean motion does not count.

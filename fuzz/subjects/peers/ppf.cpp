@@ -34,7 +34,7 @@ using std::min;
 
 #include "ccd/nearmiss_functions.hpp"
 
-namespace accd {  // contact.cu defines these notes about the first pair that overlaps at the start
+namespace accd {  // contact.cu defines these variables, which describe the first pair that overlaps at t = 0
 unsigned g_ccd_overlap = 0, g_ccd_overlap_v0 = 0, g_ccd_overlap_v1 = 0, g_ccd_overlap_kind = 0;
 float g_ccd_overlap_d2 = 0, g_ccd_overlap_offset = 0;
 }  // namespace accd
@@ -58,8 +58,9 @@ Answer decide(const Settings& set, const Question& q) {
   param.ccd_eps = static_cast<float>(set.eps);
   const auto test = [&](const auto& ask, auto... v) { return ask(Vec3f(v)..., offset, gap, param); };
   float time = 0;
-  switch (
-      q.kind) {  // a vertex's start and end come first, then the starts of the other primitive, then its ends
+  // The functions for a vertex take its start and its end, then the starts of the other primitive's vertices,
+  // then the ends of those vertices.
+  switch (q.kind) {
     case NEARMISS_VERTEX_VERTEX:
       time = test(accd::point_point_ccd, q.start(0), q.end(0), q.start(1), q.end(1));
       break;

@@ -1,5 +1,5 @@
 // The code that Wang published with his 2014 paper "Defending continuous collision detection against errors",
-// called through the wrapper in libpgo, which computes B, the size of a pair, for each pair.
+// called through the wrapper in libpgo. The wrapper computes B, the size of a pair, for each pair.
 // Source: github.com/bohanwang/libpgo, third-party/CCD/SafeCCD, 88dfe845. Licence: BSD-like, in its header.
 // Question: contact; the time of impact is an estimate.
 // Contract: the primitives are apart at t = 0, and their lengths are neither too large nor too small (end of
@@ -26,7 +26,7 @@ struct Wrapper : SafeCCDWrapper {
 };
 
 Answer decide(const Question& q) {
-  double t = 0, r = 0, s = 0;  // must exist: the code writes the weights r and s
+  double t = 0, r = 0, s = 0;  // r and s are not used, but the code writes weights to them
   const auto test =
       q.kind == NEARMISS_VERTEX_TRIANGLE ? SafeCCDWrapper::VertexTriangleCCD : SafeCCDWrapper::EdgeEdgeCCD;
   const bool collides =
@@ -34,8 +34,8 @@ Answer decide(const Question& q) {
   return Answer::of(collides, t);
 }
 
-/// The bound that the paper claims: 41 B ε^¼, with ε^¼ = 2^-13. The code agrees: it says that its `gap`,
-/// which is twice this bound, is twice the largest distance of a false positive.
+/// The bound that the paper claims: 41 B ε^¼, with ε^¼ = 2^-13. According to the code, too, the largest
+/// distance of a false positive is half of `gap`, and `gap` is twice this bound.
 double distance_bound(void* /*state*/, int kind, const double* x) {
   const Question q{kind, x, 0};
   return 41 * 0x1p-13 *

@@ -7,11 +7,11 @@
 // compares the limit on iterations with the number of domains that were tested earlier. On a GPU, chance
 // decides how many domains of the same level this number includes; here it includes none, so that the limit
 // drops as few domains as possible. This adapter does what partial_ipc_ccd_strategy() in
-// cuda/ipc_ccd_strategy.cu does. If the time is below 1e-6, that function asks again, without a separation
-// and without a limit on iterations, and answers with 0.8 of the new time. If the iterations run out, the
-// kernel drops the remaining domains, and the answer is no collision unless a collision was found before. If
-// the queue exceeds 2^24 domains, this adapter answers "cannot tell"; the original enlarges its queue and
-// asks again, until the GPU's memory is full.
+// cuda/ipc_ccd_strategy.cu does. If the CCD finds a time below 1e-6, that function asks again, without a
+// separation and without a limit on iterations, and answers with 0.8 of the new time. If the iterations run
+// out, the kernel drops the remaining domains, and the answer is no collision unless a collision was found
+// before. If the queue exceeds 2^24 domains, this adapter answers "cannot tell"; the original enlarges its
+// queue and asks again, until the GPU's memory is full.
 // Source: github.com/Continuous-Collision-Detection/Scalable-CCD, 8f9347c. Licence: Apache 2.0.
 // Question: contact, or a separation, which the code calls min_distance. The time of impact is a lower bound.
 // The options have the values that ipc-toolkit (b40e9c07, ipc.cpp) passes: tolerance=1e-6, iterations=1e7

@@ -26,7 +26,7 @@ constexpr std::array<nearmiss::Option<Settings>, 2> settings{
 
 Answer decide(const Settings& set, const Question& q) {
   const ticcd::Array3 of_query =
-      ticcd::Array3::Constant(-1);  // -1: bound rounding errors for the query, not for a scene
+      ticcd::Array3::Constant(-1);  // -1: the rounding errors of this query, not of a scene
   double toi = 0, reached = 0;
   const auto test = q.kind == NEARMISS_VERTEX_TRIANGLE ? ticcd::vertexFaceCCD : ticcd::edgeEdgeCCD;
   const bool collides = with_vertices(q, [&](const auto&... v) {

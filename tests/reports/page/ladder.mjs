@@ -12,8 +12,8 @@ async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate
     const points = await fills(`${inPanel} .mark-symbol.role-mark path`);
     assert.equal(points.length, Object.keys(subjects).length);
     assert.equal(new Set(points).size, 2);
-    // One line is the front. Each of two algorithms has two lines: one for the machine's scalars, and one
-    // for emulated scalars.
+    // The chart has a line for the front, and two lines for each of two algorithms: one for the machine's
+    // scalars, and one for emulated scalars.
     assert.equal(await count(page, `${inPanel} .mark-line path`), 1 + 4);
     const labels = await page.locator(`${inPanel} .mark-text.role-mark text`).evaluateAll((all) => all
       .filter((each) => each.getAttribute("stroke") === null || each.getAttribute("stroke") === "none")

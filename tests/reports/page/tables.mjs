@@ -1,4 +1,4 @@
-// Tests the tables of power and of environments, and the page in the dark, on a phone and on paper.
+// Tests the tables of power and of environments, and the page in the dark theme, on a phone and on paper.
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";

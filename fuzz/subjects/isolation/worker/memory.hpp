@@ -11,7 +11,7 @@ namespace nearmiss::isolation {
 /// From now on, `flag` becomes 1 whenever malloc(3) or mmap(2) refuses memory to this process.
 void note_refusals_in(std::atomic<std::uint32_t>& flag);
 
-/// Sets the flag of note_refusals_in(), after the system has refused memory.
+/// Sets the flag of note_refusals_in(). Call this after the system has refused memory.
 void note_refusal();
 
 /// Limits the memory that this process may take while it loads the plug-in. `more` is the limit for a query

@@ -115,7 +115,7 @@ void drop_privileges() {
     set.effective &= of_files;
     set.permitted &= of_files;
     set.inheritable = 0;
-    of_files = 0;  // the other half of the sets has no privilege on files
+    of_files = 0;  // the next element of `sets` has no privilege on files
   }
   syscall(SYS_capset, &header, sets.data());
 }

@@ -8,10 +8,10 @@ namespace nearmiss::isolation {
 /// such as its supervisor, nor read the memory of such a process.
 void drop_privileges();
 
-/// Keeps this process, and all processes that it starts, from the keyrings of the user (keyrings(7)) and from
-/// settings of terminals, so that they cannot stop the output of the user's terminal. Call drop_privileges()
-/// first. Does nothing if the kernel has no filters of system calls, or on machines other than x86-64 and
-/// AArch64.
+/// Forbids this process, and all processes that it starts, to use the keyrings of the user (keyrings(7)) or
+/// to change settings of terminals. So they cannot stop the output of the user's terminal. Call
+/// drop_privileges() first. Does nothing if the kernel has no filters of system calls, or on machines other
+/// than x86-64 and AArch64.
 void keep_out_of_keyrings_and_terminals();
 
 /// Limits this process and all processes that it starts. They can send signals only to this process. They

@@ -16,9 +16,9 @@ namespace nearmiss::isolation {
 struct UnaskedBytes {};
 
 /// Runs a command as a child of this process. The command answers batches of queries, as
-/// fuzz/subjects/PROGRAMS.md says. If the command ends, this process first writes to standard error what the
-/// command wrote there, and then ends in the same way. But if the command failed with a message, Program
-/// throws std::runtime_error with the message's last line.
+/// fuzz/subjects/PROGRAMS.md says. If the command ends, this process writes to standard error what the
+/// command wrote there. If the command failed with a message, Program then throws std::runtime_error with the
+/// message's last line; otherwise, this process ends as the command did.
 class Program {
  public:
   /// Starts the command, and reads its description. Throws Error if the description is missing or invalid.

@@ -12,8 +12,8 @@ struct ProgramDescription {
   std::string name, version, about;
   bool claims_bound = false;
   bool says_seconds = false;  ///< each answer ends with the seconds that it took without copies
-  bool ignores_separation_in_bounds = false;  ///< version 2: the program is asked for bounds without h
-  nearmiss_subject subject{};                 ///< the rest, without texts and functions
+  bool ignores_separation_in_bounds = false;  ///< in version 2, questions about bounds have h = 0
+  nearmiss_subject subject{};                 ///< the other facts; its texts and functions are not set
 
   /// Parses all lines, including the empty one. Throws Error if a line is invalid, or a required line is
   /// missing.

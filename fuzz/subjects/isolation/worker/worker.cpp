@@ -7,7 +7,7 @@
 //
 // If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no
 // other process can stop, kill or trace it. A guard outside, which has no process id in the namespace, also
-// waits for the end of nearmiss, and kills the supervisor. The system then ends all processes of the
+// waits for the end of nearmiss, and then kills the supervisor. The system then ends all processes of the
 // namespace.
 #include <fcntl.h>
 #include <poll.h>
@@ -67,7 +67,7 @@ std::optional<siginfo_t> end_of(pid_t process) {
   while (waitid(P_ALL, 0, &how, WEXITED | WNOHANG | WNOWAIT) == 0 && how.si_pid != 0) {
     if (how.si_pid == process) {
       end = how;
-      kill(-process, SIGKILL);  // before reaping it: until then, no other group can have its number
+      kill(-process, SIGKILL);  // before the process is reaped: then another group may get its number
     }
     waitpid(how.si_pid, nullptr, 0);
     how.si_pid = 0;
@@ -90,7 +90,7 @@ void end_descendants() {
   }
 }
 
-/// Keeps the end of what is written to a pipe.
+/// Keeps the last bytes that were written to a pipe.
 class LastOutput {
  public:
   /// `pipe` is the descriptor from which the pipe is read; -1 if there is no pipe.

@@ -15,9 +15,9 @@ arguments:
 kind:  'vt' for a vertex x0 and a triangle x1 x2 x3, 'ee' for the edges x0x1 and x2x3, 'vv' for the vertices
        x0 and x1, or 've' for a vertex x0 and an edge x1x2
 x:     (n, 2, 4, 3): query, time, vertex, coordinate; or (n, 8, 3): the vertices at t = 0, then at t = 1; or
-       MeshPairs. For 'vv', 2 and 4 take the place of 4 and 8; for 've', 3 and 6. An x of shape (2, 4, 3) or
-       (8, 3) is one query, and its results are NumPy scalars instead of arrays (n,). Functions read float64
-       and float32 in place, with any strides, and convert integers to float64.
+       MeshPairs. The shapes for 'vv' have 2 and 4 in place of 4 and 8; those for 've' have 3 and 6. An x of
+       shape (2, 4, 3) or (8, 3) is one query, and its results are NumPy scalars instead of arrays (n,).
+       Functions read float64 and float32 in place, with any strides, and convert integers to float64.
 
 Every function raises a ValueError that names the first query with a coordinate that is not finite, or with a
 separation that is negative or not finite. Other Python threads run during a call. trial() puts CCDs on trial,

@@ -168,10 +168,9 @@ def certificate(
     returns the statement that it proves; compare the statement with what you asked. On average, a
     certificate takes a millisecond and has a thousand characters.
 
-    A certificate contains only the statements that can be proved. The only statements without a
-    proof are about queries whose distance reaches the separation at an irrational time, and right
-    after this time neither falls below the separation nor stays equal to it. If no statement is
-    left, returns None in place of a string.
+    A certificate contains only the statements that can be proved. A statement has no proof only if
+    the distance reaches the separation at an irrational time, and exceeds the separation again
+    right after this time. If no statement is left, returns None in place of a string.
 
     kind, x, separation: as for collides()
     prove: 'decision': the answer of collides();
@@ -208,8 +207,8 @@ def wang(
 def wang_bound(
     kind: KindLike, x: Union[ArrayLike, MeshPairs], separation: ArrayLike = 0.0
 ) -> NDArray[np.float64]:
-    """The most by which the distance of a false positive of wang() exceeds the separation, in the unit of the
-    coordinates.
+    """The largest amount by which the distance of a false positive of wang() may exceed the
+    separation, in the unit of the coordinates.
 
     Without a separation, this bound is about 41 B ε^¼, where B is the size of the pair and ε the machine
     epsilon of double.

@@ -40,8 +40,8 @@ class Subject:
     name:     the subject's name in results; by default, the name of the function
     time:     unless it is 'none', the function returns (bools, times), with a time in [0, 1] for each
               collision. 'estimate': the times are near the earliest times; 'lower-bound': the times are
-              never after the earliest times; 'free-step': in addition, the step to the time, rounded to
-              doubles, has no contact on the way
+              never after the earliest times; 'free-step': in addition, there is no contact if the step
+              is shortened to the time, with the vertices' new end positions rounded to doubles
     kinds:    the kinds of queries that the subject is asked
     takes_separation: whether the subject is asked queries with a separation h > 0
     """
