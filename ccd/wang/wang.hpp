@@ -86,8 +86,8 @@ auto take_bound(Pair<kind, T>& pair, const std::optional<double>& given) {
   return is_plain & within_reach(pair);
 }
 
-// The sum of the squares of all components of p, q and r, positions and velocities, in a fixed order as in
-// `dot`.
+// The sum of the squares of all components of p, q and r, both of their positions and of their velocities.
+// The order of the terms is fixed, as in `dot`.
 template <Kind kind, class T>
 T sum_of_squares(const Pair<kind, T>& pair) {
   const auto squares = [&](int i) -> T {

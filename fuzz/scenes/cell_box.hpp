@@ -42,8 +42,8 @@ struct CellBox {
   bool operator==(const CellBox&) const = default;
 };
 
-/// The boxes that the vertices of a mesh sweep, in cells. Each box is enlarged on all sides by half of the
-/// mesh's separation. If the swept boxes of two primitives pass the test of boxes_meet
+/// For each vertex of a mesh, the box that it sweeps, measured in cells. Each box is enlarged on all sides by
+/// half of the mesh's separation. If the swept boxes of two primitives pass the test of boxes_meet
 /// (oracle/filter/box.hpp), the boxes around the cells of their vertices meet. The converse is nearly true,
 /// since a cell is 2^-31 of the mesh's largest extent.
 ///

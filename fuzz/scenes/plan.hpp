@@ -1,4 +1,4 @@
-// The plan of a step: which pairs subjects must decide, and which pairs need no subject.
+// The plan of a step: the pairs that subjects must decide, and the pairs that need no subject.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +43,8 @@ using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate,
 /// Divides the pairs of a step into parts, which any thread may process.
 class Plan {
  public:
-  /// The mesh must outlive this object, unless `move` replaces it. `jobs` threads make the parts. Throws
-  /// Stopped when `is_over` returns true.
+  /// The mesh must outlive this object, unless `move` replaces it. The constructor makes the parts with
+  /// `jobs` threads. Throws Stopped when `is_over` returns true.
   Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over);
   Plan(MovingMesh&& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over) = delete;
 

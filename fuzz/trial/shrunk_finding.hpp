@@ -28,8 +28,8 @@ struct ShrinkLimits {
   std::chrono::milliseconds time = std::chrono::minutes(1);
 };
 
-/// Limits for a campaign, whose subjects should spend their time on cases. A search reaches the time limit
-/// before the limit of work only if its answers take more than about 0.1 ms each (1 ms in calls for one
+/// Limits for a campaign, whose subjects should spend their time on cases. The limit of work usually ends a
+/// search. The time limit ends it only if an answer takes more than about 0.1 ms (1 ms if each call asks one
 /// query), or if the start of a process takes more than 100 ms.
 inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::chrono::seconds(12)};
 

@@ -68,7 +68,7 @@ struct TrialResult {
   void merge(TrialResult&& other);
 };
 
-/// Receives results as they come, in an order that does not depend on threads.
+/// Receives results while the trial runs. Their order does not depend on the threads.
 using TrialSink = std::function<void(TrialResult&&)>;
 
 /// Selects the queries on which all methods of the oracle are compared, and the versions of a CCD to compare.

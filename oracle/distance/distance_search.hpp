@@ -255,8 +255,8 @@ class DistanceSearch {
                      : times_[gap.before + 1].t - Real(less + step);
   }
 
-  /// Adds lower bounds of the distance to a sampled time. If the time already has all of them, but they cover
-  /// nothing, looks at the time again, in Real. Returns false if nothing is left to do.
+  /// Gives a sampled time more lower bounds of the distance. If the time already has all of them, but they
+  /// cover nothing, looks at the time again, in Real. Returns false if nothing is left to do.
   bool improve(SampledTime& time, double covered) {
     if (!time.moment.has_all) {
       if (time.moment.is_precise)

@@ -46,10 +46,10 @@ inline void predict(Moment& moment, const Vec<double>& difference, const Vec<dou
   moment.predicted = std::sqrt(std::max(0.0, squared_distance + moment.slope * moment.step));
 }
 
-/// Predicts the minimum for interiors. Their distance is |F| / |N|, for the coplanarity cubic F and the
-/// normal N, and N changes little while F goes to zero or to its extremum. (The difference of the closest
-/// points is less useful: if the primitives slide along each other, the component of this difference along
-/// the velocity consists of rounding errors only.)
+/// Predicts the smallest distance if the closest points lie in the interiors of the primitives. Then the
+/// distance is |F| / |N|, for the coplanarity cubic F and the normal N, and N changes little while F goes to
+/// zero or to its extremum. (The difference of the closest points is less useful: if the primitives slide
+/// along each other, the component of this difference along the velocity consists of rounding errors only.)
 inline void predict(Moment& moment, double distance, const Powers<double>& F) {
   moment.predicted = distance;
   if (!(F.c[0] > 0)) return;

@@ -66,8 +66,8 @@ inline const char* message(Status status) noexcept { return nearmiss_message(sta
 /// Queries of one kind in the caller's memory, which must outlive this object. Nothing is copied.
 class Queries {
  public:
-  /// Queries one after another: six coordinates for each vertex, x0 x1 .. at t = 0, then at t = 1. Numbers at
-  /// the end that do not make a whole query are ignored.
+  /// Queries one after another. Each query is the coordinates of x0 x1 .. at t = 0, then those at t = 1.
+  /// Numbers at the end that do not make a whole query are ignored.
   static Queries packed(Kind kind, std::span<const double> x) noexcept {
     return Queries(nearmiss_packed(to_c(kind), count_of(kind, x.size(), 6), x.data()));
   }

@@ -78,8 +78,8 @@ TEST(Advance, ReportsNothingBeyondItsBound) {
   EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, bound, bound)).hit);
 }
 
-// The triangle turns about the line x = 0, just below a vertex at rest. Its corners rise above the vertex's
-// height at once, but its plane never comes nearer to the vertex.
+// The triangle turns about the line x = 0, just below a vertex at rest. Two of its corners soon rise above
+// the vertex, but its plane never comes nearer to the vertex.
 TEST(Advance, CannotTellWhereOnlyAPartApproaches) {
   const Query query = make_query(Kind::vertex_triangle, {{0, 0, 1e-9}, {-1, 0, 0}, {1, -1, 0}, {1, 1, 0}},
                                  {{0, 0, 1e-9}, {-1, 0, -1}, {1, -1, 1}, {1, 1, 1}});

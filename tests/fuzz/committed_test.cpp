@@ -124,8 +124,8 @@ TEST(Committed, NoneIfTheStepEndsWellBeforeContact) {
   const Counts counts = counts_of(false, 0.01, "uniform");
   EXPECT_EQ(counts.committed, 0);
   EXPECT_GT(counts.times_promised, 40);
-  // In float, far from the origin, a time may be early by a hundredth of the step, and the step to it may
-  // still have contact.
+  // In float, far from the origin, a time of impact may be early by a hundredth of the step, and the motion
+  // up to this time may still have contact.
   EXPECT_GT(counts_of(true, 0.01, "distant@20").committed, 0);
 }
 

@@ -90,8 +90,8 @@ std::set<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& p
     const std::string roundings = fmt::format("{} * ({} - {})", script_text(value.coefficient),
                                               factors.product(value.roundings, precision.roundoff),
                                               factors.product(leaves, precision.roundoff));
-    // A double word is at most (1 + u) times its upper half, and the magnitudes of a script are magnitudes of
-    // upper halves.
+    // A script has the magnitudes of the upper halves of double words. A double word is at most (1 + u) times
+    // its upper half.
     const std::string halves = factors.product(precision.is_double_word ? degree(monomial) : 0, u);
     const std::string others = fmt::format(
         "{} + {} + {}", times(share(needs.leaves, monomial), 0),

@@ -55,8 +55,8 @@ std::unique_ptr<Subject> function_of(const py::object& each) {
   return std::make_unique<FunctionSubject>(std::move(info), each.attr("_decide").cast<py::function>());
 }
 
-/// The subjects for a list of objects of the Python class Subject, and of texts as `nearmiss fuzz --subject`
-/// takes them.
+/// The subjects for a list. Each item is an object of the Python class Subject, or a text as `nearmiss fuzz
+/// --subject` takes it.
 Subjects subjects_of(const py::list& of, const Stop& stop) {
   isolation::PluginLimits limits;
   limits.most_late = most_slow;

@@ -15,8 +15,8 @@ struct ProgramDescription {
   bool ignores_separation_in_bounds = false;  ///< in version 2, questions about bounds have h = 0
   nearmiss_subject subject{};                 ///< the other facts; its texts and functions are not set
 
-  /// Parses all lines, including the empty one. Throws Error if a line is invalid, or a required line is
-  /// missing.
+  /// Parses all lines, including the empty line that ends them. Throws Error if a line is invalid, or a
+  /// required line is missing.
   static ProgramDescription parse(const std::string& text);
 };
 
