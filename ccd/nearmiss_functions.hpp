@@ -19,14 +19,14 @@
 //   Answer f(const Question&)                          everything else      none              no
 //
 // The compiler does not notice if a function takes its vertices in another order, such as the triangle first,
-// or if its numbers mean something else than in the table. Call such a function from a function that takes a
-// Question (fuzz/subjects/peers/ has examples). If the functions of a detector give times of different sorts,
-// the detector claims the weakest sort.
+// or if its numbers, such as toi, mean something else than in the table. Call such a function from a function
+// that takes a Question (fuzz/subjects/peers/ has examples). If the functions of a detector give times of
+// different sorts, the detector claims the weakest sort.
 //
-// A function with the signature of Codim-IPC gets eta = 0.1, toi = 1 and rounded displacements; the
-// separation is its thickness h. A function may take a vertex as a const double*, as a vector of Eigen if
-// Eigen is included before this header, or as a type T for which T{x, y, z} takes three numbers. It may
-// return `int` in place of `bool`.
+// A function with the signature of Codim-IPC gets eta = 0.1, toi = 1 and rounded displacements. It gets the
+// query's separation as the thickness h. A function may take a vertex as a const double*, as a vector of
+// Eigen if Eigen is included before this header, or as a type T for which T{x, y, z} takes three numbers. A
+// function may return `int` in place of `bool`.
 //
 // If a function f is overloaded, has default arguments or is a member, pass NEARMISS_CALL(f), such as
 // NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() sets any field of nearmiss_subject.h, even if the
@@ -39,9 +39,9 @@
 //
 //   NEARMISS_SUBJECT(detector("mine").edge_edge_distance(squared(NEARMISS_CALL(ipc::edge_edge_distance))))
 //
-// .edge_edge_step(f) and the like add a filter of steps, a function double f(const Question&, double* y).
-// It writes to y the positions at the end of the safe step, and returns the clearance that it claims
-// during this step (nearmiss_subject.h).
+// .edge_edge_step(f) and the like add a filter of steps, a function double f(const Question&, double* y). The
+// filter writes to y the positions of the vertices at the end of the safe step, and returns the clearance
+// that the filter claims during this step (nearmiss_subject.h).
 #pragma once
 
 #include <algorithm>
@@ -57,7 +57,8 @@
 #include <type_traits>
 #include <utility>
 
-// These two headers lie beside this one, in the source tree and in an installation.
+// The names of these two headers are relative to the folder of this header, in the source tree and in an
+// installation.
 #include "nearmiss_subject.h"
 #include "subjects/number_options.hpp"
 
@@ -96,7 +97,7 @@ class Point {
   operator T() const {  // NOLINT(google-explicit-constructor): functions take it as their vector
     if constexpr (std::is_same_v<T, const double*>) return x_;
 #ifdef EIGEN_WORLD_VERSION
-    else if constexpr (is_eigen<T>)  // copies nothing, so that an Eigen::Ref may refer to the coordinates
+    else if constexpr (is_eigen<T>)  // does not copy the coordinates, so that an Eigen::Ref may refer to them
       return T(Eigen::Map<const Eigen::Vector3d>(x_).template cast<typename T::Scalar>());
 #endif
     else if constexpr (is_braced<T, double>)
@@ -233,7 +234,7 @@ class Asked {
       const bool collides = call(vertices(), std::tuple<double&, double, double>(toi, q.separation, 1));
       return Answer::of(collides, toi);
     } else if constexpr (is_displaced) {
-      toi = 1;  // on entry, the end of the time step
+      toi = 1;  // the function expects the end of the time step here
       const bool collides = with_displacements<vertices_of(kind)>(q, [&](const auto&... v) {
         return call(std::tuple(v...), std::tuple<double, double, double&>(0.1, q.separation, toi));
       });
@@ -412,7 +413,8 @@ struct Detector {
   }
 };
 
-constexpr int from_signatures = -1;  ///< in a field that is to be set from the functions' signatures
+/// The value of a field that is still to be set from the signatures of the detector's functions.
+constexpr int from_signatures = -1;
 
 /// A detector without functions. nearmiss shows its name, its version and the line `about` to users.
 inline Detector<NoOptions> detector(const char* name, const char* version = "", const char* about = "") {
@@ -476,7 +478,8 @@ double step_of(void* state, int kind, const double* x, double* y) {
 template <class Detector>
 nearmiss_subject described_by(const Detector& detector) {
   nearmiss_subject subject = detector.subject;
-  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;  // the weakest sort of times
+  // `sort` is the weakest sort of times that any of the detector's functions gives.
+  int sort = NEARMISS_TIME_LOWER_BOUND, with_separation = 0;
   detector.for_each_part([&](const auto& part) {
     constexpr Role role = std::decay_t<decltype(part)>::role;
     if constexpr (role == Role::decide) {

@@ -51,9 +51,9 @@
 #define NEARMISS_UNKNOWN 2 /* cannot tell */
 #endif
 
-/* A flag that keeps a record longer: records with this flag have a part of the file to themselves. Set it for
- * queries that matter, such as slow ones, those with a time of impact of 0, and those of a step that ends in
- * an intersection. */
+/* A flag that keeps a record longer: the records with this flag fill a part of the file of their own, so
+ * records without the flag do not replace them. Set the flag for queries that matter, such as slow ones,
+ * those with a time of impact of 0, and those of a step that ends in an intersection. */
 #define NEARMISS_KEEP 1
 
 /* Values in the header of a recording. */
@@ -158,8 +158,9 @@ __attribute__((unused)) static int nearmiss_record_open(const char* file) {
   return fd;
 }
 
-/* Opens a new file with the name `file`. If another process or shared object uses that file, opens one whose
- * name also contains the number of this process. Writes the name of the opened file to `own`. */
+/* Opens a new file with the name `file`. If another process or shared object uses that file, opens instead a
+ * new file whose name also contains the number of this process. Writes the name of the file that it opened
+ * to `own`. */
 __attribute__((unused)) static int nearmiss_record_open_own(const char* file, char* own, size_t size) {
   const char* dot = strrchr(file, '.');
   const size_t stem = dot == NULL || strchr(dot, '/') != NULL ? strlen(file) : (size_t)(dot - file);
@@ -176,8 +177,8 @@ __attribute__((unused)) static int nearmiss_record_open_own(const char* file, ch
   return fd;
 }
 
-/* Whether this process may write a file of this size. Writing beyond the process's limit would raise a signal
- * that ends the program. */
+/* Whether this process may write a file of this size. Writing beyond the limit on the size of the process's
+ * files would raise a signal that ends the program. */
 __attribute__((unused)) static int nearmiss_record_may_have(size_t size) {
   struct rlimit limit;
   return getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || size <= limit.rlim_cur;
@@ -215,8 +216,9 @@ __attribute__((unused)) static int nearmiss_record_map(const char* file, size_t 
   return 1;
 }
 
-/* Makes the recorder write to `file` from now on, whatever the environment says; NULL ends recording for
- * good. Returns 1 if queries are now recorded, else 0. Call this function before other threads record. */
+/* Makes the recorder write to `file` from now on, whatever the environment variables say. If `file` is NULL,
+ * the recorder stops, and the environment variables do not start it again. Returns 1 if queries are now
+ * recorded, else 0. Call this function before other threads record. */
 __attribute__((unused)) static int nearmiss_record_to(const char* file, size_t bytes) {
   int is_on;
   nearmiss_the_recorder.opener = (int)getpid();
@@ -227,7 +229,7 @@ __attribute__((unused)) static int nearmiss_record_to(const char* file, size_t b
 }
 
 /* Reads a number of bytes, such as 1000000, 64K, 64M or 1G. Returns `otherwise` if the text is NULL or empty,
- * and 0 if it is not a number of bytes. */
+ * and 0 if the text is not a number of bytes. */
 __attribute__((unused)) static size_t nearmiss_record_bytes(const char* text, size_t otherwise) {
   unsigned long long number;
   char* end;
@@ -253,7 +255,7 @@ __attribute__((unused, noinline)) static void nearmiss_record_begin(void) {
 }
 
 /* Returns whether queries are recorded. The first call opens the file, and calls in other threads wait until
- * it is open. A child process that is forked while the file is being opened records nothing. */
+ * the file is open. A child process that is forked while the file is being opened records nothing. */
 static inline int nearmiss_record_is_on(void) {
   int state = __atomic_load_n(&nearmiss_the_recorder.state, __ATOMIC_ACQUIRE);
   if (state == 0) nearmiss_record_begin();

@@ -69,9 +69,9 @@ typedef struct {
    * options, the function writes a line of at most size - 1 bytes to `message`, and returns NULL. If `open`
    * is NULL, the detector has no options, and its state is NULL. */
   void* (*open)(const char* options, char* message, size_t size);
-  /* Closes a state; may be NULL. If it takes longer than a tenth of a second, nearmiss ends the process.
-   * nearmiss does not call `close` after a query that ended the process or took too long, and ignores a crash
-   * in `close`. */
+  /* Closes a state. The pointer may be NULL. If `close` takes longer than a tenth of a second, nearmiss ends
+   * the process. nearmiss does not call `close` after a query that ended the process or took too long, and
+   * ignores a crash in `close`. */
   void (*close)(void* state);
 
   /* Decides n queries of one kind: whether the distance of the two primitives is at most the separation h at
@@ -102,8 +102,8 @@ typedef struct {
   /* New in version 3: */
 
   int separation_kinds; /* if the detector uses h only for some of its kinds: the sum of these */
-  /* As distance_bound(), for a bound that may depend on h. If this function is not NULL, nearmiss calls it in
-   * place of distance_bound(). */
+  /* The bound that the detector claims, as for distance_bound(), but this bound may depend on h. If this
+   * function is not NULL, nearmiss calls it in place of distance_bound(). */
   double (*distance_bound_within)(void* state, int kind, const double* x, double h);
 
   /* New in version 4: */
@@ -117,16 +117,18 @@ typedef struct {
   double (*distance)(void* state, int kind, const double* x, double* weights);
 
   int step_kinds; /* sum of the kinds for which step() is called; 0 if step() is NULL */
-  /* Filters a step. x is one row, as for decide(). The function writes to `y` the positions to which the
-   * vertices may safely move, in place of those at t = 1: 12 numbers, or 6 for two vertices, and 9 for a
-   * vertex and an edge. It returns a clearance, finite and at least 0. The detector claims that the distance
-   * of the primitives is at least the clearance while the vertices move straight from their positions at
-   * t = 0 to y. A clearance of 0 claims that the primitives do not touch. */
+  /* Filters the step of one query. `x` is the query's row of coordinates, as for decide(). The function
+   * writes to `y` the positions to which the vertices may safely move, in place of those at t = 1: 12
+   * numbers, or 6 for two vertices, and 9 for a vertex and an edge. It returns a clearance, finite and at
+   * least 0. The detector claims that the distance of the primitives is at least the clearance while the
+   * vertices move straight from their positions at t = 0 to y. A clearance of 0 claims that the primitives do
+   * not touch. */
   double (*step)(void* state, int kind, const double* x, double* y);
 
   int layout; /* the layout of decide()'s x: NEARMISS_ROWS or NEARMISS_ARRAYS */
-  /* How many seconds the last decide() took, without copies to and from a device; a negative number if that
-   * is unknown. `nearmiss bench` shows this time. May be NULL. */
+  /* How many seconds the last call of decide() took, without the copies to and from a device; a negative
+   * number if the detector does not know this time. `nearmiss bench` shows the time. The pointer may be
+   * NULL. */
   double (*seconds_of_kernels)(void* state);
 } nearmiss_subject;
 

@@ -14,14 +14,14 @@ namespace nearmiss {
 struct Case {
   std::string name;  ///< the source file, with the number of the line if the file has several cases
   Query query;
-  std::optional<bool> truth = {};  ///< whether the query is a collision, if that is recorded
+  std::optional<bool> truth = {};  ///< whether the query is a collision, if the case records this
   std::string why = {};            ///< why the query is kept; may have several lines
   std::string provenance = {};     ///< origin of the query, such as "planted:1:42" (family, seed, index)
 };
 
 /// Writes a case in the format of *.case files. The lines of `why` come first, as comments. Each point is one
-/// line of three numbers, in decimal if that is exact, else as hex floats. All labels except `truth`,
-/// `separation` and `provenance` are required:
+/// line of three numbers, in decimal if the decimals are exact, else as hex floats. All labels except
+/// `truth`, `separation` and `provenance` are required:
 ///
 ///     # Two roots: parity is even, yet it is a collision.
 ///     kind ee
@@ -34,7 +34,7 @@ std::string to_text(const Case& each);
 Case parse_case(std::istream& in, const std::string& file);
 
 /// Writes a case to a file in the format of to_text. The file is written whole or not at all. Throws Error if
-/// it cannot be written.
+/// the file cannot be written.
 void write_case(const Case& each, const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -25,7 +25,7 @@ Error cannot_be_written(const fs::path& file, const std::string& why) {
   return Error(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
-/// Writes the text to a file, and returns whether that succeeded. If not, errno says why.
+/// Writes the text to a file, and returns whether the whole text was written. If it was not, errno says why.
 bool write(const fs::path& file, std::string_view text) {
   errno = 0;
   std::ofstream out(file, std::ios::binary);

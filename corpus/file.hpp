@@ -13,7 +13,7 @@ namespace nearmiss {
 /// destructor removes the file.
 class PartFile {
  public:
-  /// Makes an empty file. Throws Error if that fails.
+  /// Makes the temporary file, which is empty. Throws Error if the file cannot be made.
   explicit PartFile(std::filesystem::path place);
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
@@ -25,7 +25,7 @@ class PartFile {
   /// removing a file of gigabytes takes seconds.
   void write_out() const;
 
-  /// Renames the file to `place`. Throws Error if that fails.
+  /// Renames the file to `place`. Throws Error if the file cannot be renamed.
   void put_in_place();
 
  private:
@@ -43,19 +43,19 @@ void replace_file(const std::filesystem::path& file, std::string_view text);
 /// Throws Error if replace_file() could not replace this file.
 void expect_replaceable(const std::filesystem::path& file);
 
-/// The absolute path of a file with all links resolved. The file need not exist.
+/// The absolute path of a file, in which all links are resolved. The file need not exist.
 std::filesystem::path true_path(const std::filesystem::path& path);
 
 /// Throws Error if a path leads to something other than a regular file, such as a pipe or a folder. A path
 /// that leads to nothing is accepted.
 void expect_regular_file(const std::filesystem::path& file);
 
-/// The whole content of a stream. If the stream cannot be read to its end, throws an Error that calls it
-/// `name`.
+/// The whole content of a stream. If the stream cannot be read to its end, throws an Error that calls the
+/// stream `name`.
 std::string read_all(std::istream& in, std::string_view name);
 
-/// The whole content of a regular file. Throws Error if the file is something else, cannot be read, or has
-/// more than 1 GiB.
+/// The whole content of a regular file. Throws Error if the path leads to something other than a regular
+/// file, or if the file cannot be read or has more than 1 GiB.
 std::string read_whole_file(const std::filesystem::path& file);
 
 }  // namespace nearmiss

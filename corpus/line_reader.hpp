@@ -16,7 +16,7 @@ inline constexpr std::size_t most_line_bytes = 1 << 20;
 /// Goes through the lines of a stream, which must outlive this object.
 class LineReader {
  public:
-  /// Messages use `name` for the stream.
+  /// Error messages call the stream `name`.
   LineReader(std::istream& in, std::string_view name);
 
   /// Goes on to the next line. Returns false at the end of the stream, or if the stream cannot be read

@@ -70,11 +70,11 @@ std::size_t significant_digits(std::string_view scientific) {
       std::count_if(kept.begin(), kept.end(), [](char c) { return c >= '0' && c <= '9'; }));
 }
 
-/// Takes the shortest decimal that rounds to this value, and returns whether it equals the value exactly.
-/// Among all decimals with the same number of digits, this decimal is the nearest to the value. So it is
-/// exact if the exact decimal of the value has that number of digits.
+/// Whether the shortest decimal that rounds to this value equals the value exactly. Among all decimals with
+/// the same number of digits, the shortest decimal is the nearest to the value. So the shortest decimal is
+/// exact if the exact decimal of the value has the same number of digits.
 bool has_exact_decimal(double value) {
-  constexpr int most_digits = 767;  // the largest number of digits of a double
+  constexpr int most_digits = 767;  // the exact decimal of a double has at most this number of digits
   std::array<char, most_digits + 10> text;
   const auto shortest = std::to_chars(text.begin(), text.end(), value, std::chars_format::scientific);
   const std::size_t digits = significant_digits({text.data(), shortest.ptr});

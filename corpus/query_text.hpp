@@ -37,7 +37,7 @@ std::optional<Integer> parse_integer(std::string_view text) {
 /// `where`.
 void parse_numbers(std::string_view line, std::span<double> numbers, std::string_view where);
 
-/// Parses a separation: a finite number that is at least 0. Throws Error that starts with `where`.
+/// Parses a separation: a finite number that is at least 0. Throws an Error that starts with `where`.
 double parse_separation(std::string_view text, std::string_view where);
 
 /// The shortest C hex float with this value.
@@ -48,19 +48,20 @@ std::string to_hex(double value);
 std::string to_exact(double value);
 
 /// A query as hex floats separated by blanks: the vertices at t = 0, then at t = 1 (24 numbers for vt and ee,
-/// 18 for ve, 12 for vv); a separation other than 0 follows. parse_line() reads the query back exactly.
+/// 18 for ve, 12 for vv). If the separation is not 0, it follows as the last number. parse_line() reads the
+/// query back exactly.
 std::string to_line(const Query& query);
 
 /// A query in a form for people: the numbers of to_line() in decimals. Two blanks separate points, and three
-/// separate t = 0 from t = 1. parse_line() reads the query back exactly. If a decimal does not equal its
-/// number exactly, to_line(query) follows as a second line.
+/// blanks separate the points at t = 0 from the points at t = 1. parse_line() reads the query back exactly.
+/// If a decimal does not equal its number exactly, to_line(query) follows as a second line.
 std::string to_readable(const Query& query);
 
 /// Parses a query: coordinate_count(kind) coordinates, and perhaps a separation. Throws an Error that starts
 /// with `where`.
 Query parse_line(Kind kind, std::string_view line, std::string_view where);
 
-/// "vt", "ee", "vv" or "ve". Throws Error that starts with `where`.
+/// Parses the short name of a kind: "vt", "ee", "vv" or "ve". Throws an Error that starts with `where`.
 Kind parse_kind(std::string_view text, std::string_view where);
 
 /// The short names of the kinds whose bits are set in `sum`, separated by `between`, as in "vt, ee".

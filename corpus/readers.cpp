@@ -61,7 +61,7 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   if (in.peek() == std::ifstream::traits_type::eof())
     throw Error(fmt::format("{}: found an empty file, expected cases", name));
   const auto extension = path.extension();
-  // A program may record to a file of any name.
+  // A program may record to a file of any name, so the content shows, too, whether a file is a recording.
   if (extension == ".nmq" || begins_as_recording(in)) return read_records(path, sink);
   if (extension == ".case") {
     sink(parse_case(in, name));

@@ -29,7 +29,7 @@ using CaseSink = std::function<void(Case&&)>;
 /// without a usable record, for a line of more than 1 MiB, and for a folder without a case.
 void read_cases(const std::filesystem::path& path, const CaseSink& sink);
 
-/// Reads a stream with one query a line. Messages use `name` for the stream. Throws Error if a line is no
+/// Reads a stream with one query a line. Error messages call the stream `name`. Throws Error if a line is no
 /// query.
 void read_query_lines(std::istream& in, Kind kind, const std::string& name, const CaseSink& sink);
 

@@ -12,11 +12,11 @@ namespace nearmiss {
 
 /// A record of ccd/nearmiss_record.h.
 struct Recorded {
-  std::uint64_t number;  ///< from 1 on, in the order of the calls
+  std::uint64_t number;  ///< the number of the record, from 1 on, in the order of the calls
   Query query;
   double tmax;    ///< the CCD was asked about t in [0, tmax]
   int answer;     ///< as in nearmiss_subject.h
-  double time;    ///< the time that the CCD gave; NaN if none
+  double time;    ///< the time that the CCD gave; NaN if the CCD gave no time
   bool is_float;  ///< whether the program computes in float
   bool is_kept;   ///< NEARMISS_KEEP
 

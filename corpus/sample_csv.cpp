@@ -63,7 +63,7 @@ class SeparateTruths {
     if (query >= truths_.size()) refuse_count("more");
     return truths_[query];
   }
-  /// Throws Error if there are more truths than queries.
+  /// Throws Error if the file of truths has more truths than there are queries.
   void expect_end(std::size_t queries) const {
     if (are_known_ && queries < truths_.size()) refuse_count("fewer");
   }

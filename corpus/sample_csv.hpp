@@ -20,14 +20,14 @@ void read_sample_csv(std::istream& in, const std::filesystem::path& path, const 
 struct SampleNames {
   std::string_view folder, ending;
 };
-/// The names for a kind; nothing for a kind that the format does not have.
+/// The names that the format has for a kind; nothing if the format has no queries of this kind.
 std::optional<SampleNames> sample_names(Kind kind);
 
 /// The file that has the truths of the queries in `csv` if `csv` has no column for truths.
 std::filesystem::path sample_truths(const std::filesystem::path& csv);
 
-/// The eight lines of a query. The query must ask for contact, and be of a kind that the format has. The
-/// lines have a column for the truth if `truth` is given.
+/// The eight lines of a query. The query must ask for contact, and its kind must be one that the format has.
+/// The lines have a column for the truth if `truth` is given.
 std::string to_sample_csv(const Query& query, std::optional<bool> truth);
 
 }  // namespace nearmiss

@@ -18,10 +18,11 @@ namespace nearmiss {
 
 namespace {
 
-/// Starts threads until there are `jobs` threads, including the calling thread, or until the system has none
-/// left. Then ends these threads. Returns their number, or half of it if the system had no thread left. The
-/// other half is a reserve, because other processes may start threads before the caller does, and because the
-/// system counts a thread for a while after its end.
+/// Starts threads until there are `jobs` threads, including the calling thread, or until the system cannot
+/// start another thread. Then ends the threads that it started. Returns the number of threads that there
+/// were, or half of this number if the system could not start another thread. The other half is a reserve,
+/// because other processes may start threads before the caller does, and because the system counts a thread
+/// for a while after its end.
 int try_threads(int jobs) {
   std::latch all_tried(1);
   std::vector<std::thread> threads;
@@ -107,8 +108,9 @@ void in_parallel(int jobs, std::size_t count, const std::function<void(std::size
 
 void detail::in_order(int jobs, const std::function<Untyped()>& next, const std::function<void(void*)>& work,
                       const std::function<void(void*)>& take) {
-  constexpr std::size_t on_their_way =
-      16;  // items for each thread, so that one slow item does not hold up the others
+  // The number of items for each thread. With several items, one slow item does not hold up the other
+  // threads.
+  constexpr std::size_t on_their_way = 16;
   FirstFailure failure;
   const auto make = [&](tbb::flow_control& control) {
     Untyped item;

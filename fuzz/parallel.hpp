@@ -37,9 +37,9 @@ void in_order(int jobs, const std::function<Untyped()>& next, const std::functio
               const std::function<void(void*)>& take);
 }  // namespace detail
 
-/// A pipeline. next() makes items until it returns nothing. work(item) runs on `jobs` threads, or on as many
-/// as the system can start. take(item) receives each item after its work. next() and take() handle the items
-/// in order, each of them one item at a time. At most 16 items per thread exist at the same time.
+/// Runs a pipeline. next() makes items until it returns nothing. work(item) runs on `jobs` threads, or on as
+/// many as the system can start. take(item) receives each item after its work. next() and take() handle the
+/// items in order, each of them one item at a time. At most 16 items per thread exist at the same time.
 template <class Item>
 void in_order(int jobs, const std::function<std::optional<Item>()>& next,
               const std::function<void(Item&)>& work, const std::function<void(Item&)>& take) {

@@ -2,7 +2,9 @@
 // query.
 #pragma once
 
-#define R123_USE_SSE 0  // Philox needs no SSE, whose header takes more than a second to compile
+// The generator Philox needs no SSE instructions, and the header that declares them takes more than a second
+// to compile.
+#define R123_USE_SSE 0
 #include <Random123/philox.h>
 
 #include <array>

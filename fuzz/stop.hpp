@@ -17,7 +17,7 @@ class Stop {
   /// `requested` must outlive the Stop.
   explicit Stop(const std::atomic<bool>& requested) : requested_(requested) {}
 
-  /// Time granted beyond the limit, to shrink the last findings.
+  /// The time that a trial grants beyond its time limit, to shrink the last findings.
   static constexpr std::chrono::milliseconds grace{1000};
 
   /// A Stop that is never due.

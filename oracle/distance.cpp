@@ -27,8 +27,8 @@ using certified::Conversion;
 
 bool touches(const Query& query) { return collides(with_separation(query, 0)); }
 
-/// The middle of two positive numbers; if their magnitudes are far apart, 2^m for the middle m of their
-/// exponents.
+/// The middle of two positive numbers; if the magnitudes of the numbers are far apart, the result is 2^m,
+/// where m is the middle of their exponents.
 double middle_of(double lo, double hi) {
   const int low = std::ilogb(lo);
   const int high = std::ilogb(hi);
@@ -65,11 +65,11 @@ class Narrowing {
   exact::SmallestDistance& smallest_;
   double base_;
   Enclosure distance_;
-  std::uint64_t step_ = 64;  ///< the next number is this many doubles below the upper end
+  std::uint64_t step_ = 64;  ///< the next number to compare is this many doubles below the upper end
 };
 
-/// Like distance_in_units(), but if the smallest distance is at most `base`, [0, base] suffices as its
-/// enclosure.
+/// Does the same as distance_in_units(). But if the smallest distance is at most `base`, [0, base] suffices
+/// as the enclosure of this distance.
 Enclosure distance_above(double base, const Query& query, double unit, const NeededDistance& needed_of) {
   // If needed_of(hi) is infinite, the largest double suffices as the lower end.
   const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };

@@ -8,8 +8,8 @@
 
 namespace nearmiss {
 
-/// An enclosure of the smallest distance over [0, 1]; (0, 0) for contact. hi - lo <= relative_width * hi,
-/// or lo and hi are as near to each other as doubles can be.
+/// An enclosure of the smallest distance over [0, 1]; (0, 0) if the primitives touch. hi - lo <=
+/// relative_width * hi, or lo and hi are as near to each other as doubles can be.
 Enclosure minimum_distance(const Query& query, double relative_width = 1e-3);
 
 /// An enclosure of d / unit, where d is the smallest distance over [0, 1] and unit > 0. Either lo >=

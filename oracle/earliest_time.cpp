@@ -38,7 +38,8 @@ Enclosure enclose(Root t, double width) {
     const double last = rounded_down(t.hi());
     const double hi = Number(last) < t.hi() ? std::nextafter(last, 2.0) : last;
     const double next = std::nextafter(lo, 2.0);
-    if (std::nextafter(next, 2.0) < hi && hi - lo > width) continue;  // a double is left between them
+    // Refines the root further while more than one double lies between lo and hi.
+    if (std::nextafter(next, 2.0) < hi && hi - lo > width) continue;
     for (const double each : {lo, next, hi})
       if (t.is(Number(each))) return {each, each};
     if (next >= hi || hi - lo <= width) return {lo, hi};
@@ -100,7 +101,7 @@ EarliestTime::EarliestTime(const Query& query, const KnownTimes& known)
     is_certified_ = approach.stage == FilterStage::within;
     rough_ = between(approach.time, is_certified_);
     if (!is_certified_ && approach.stage != FilterStage::undecided) refuse();
-    if (!is_certified_) exact();  // refuses if the distance is always above h
+    if (!is_certified_) exact();  // throws if the distance is always above h
   } else {
     const auto time = time_of_contact(query);
     if (!time) refuse();

@@ -24,12 +24,13 @@ struct KnownTimes {
 
 /// The time t* in [0, 1] at which the distance of the primitives is first at most h, the separation. For h =
 /// 0, the primitives first share a point at t*. Arithmetic with certified bounds encloses t* first; exact
-/// arithmetic is only used for a question that the enclosure does not answer.
+/// arithmetic is used only for a question that this enclosure does not answer.
 class EarliestTime {
  public:
   /// The distance must be at most h at some time in [0, 1].
   explicit EarliestTime(const Query& query) : EarliestTime(query, KnownTimes{}) {}
-  /// Starts from the results of a decision of the query. This changes no answer.
+  /// Starts from `known`, the results of a decision of the query. These results save time, but change no
+  /// answer.
   EarliestTime(const Query& query, const KnownTimes& known);
 
   /// The enclosure of t* by certified bounds in double.

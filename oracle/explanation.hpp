@@ -22,7 +22,8 @@ struct Explanation {
   /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if they always are,
   /// and nothing for kinds with fewer than four vertices.
   std::optional<int> roots;
-  Contact contact{};         ///< when the primitives first touch, or first come within the separation
+  /// Whether and when the primitives first touch or, for h > 0, first come within the separation.
+  Contact contact{};
   bool is_approach = false;  ///< whether the query has a separation
   /// Whether there is a contact although the number of roots that root parity counts is even.
   bool unseen_by_parity = false;
@@ -32,7 +33,7 @@ struct Explanation {
 
 Explanation explain(const Query& query);
 
-/// A text such as "contact inside the step; the vertices are coplanar once".
+/// The facts as a text such as "contact inside the step; the vertices are coplanar once".
 std::string to_text(const Explanation& explanation);
 
 }  // namespace nearmiss

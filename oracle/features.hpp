@@ -34,7 +34,8 @@ struct ContactFeatures {
 /// The features of a query's first contact; nothing if there is no collision.
 std::optional<ContactFeatures> contact_features(const Query& query);
 
-/// How two primitives first come within the separation h > 0, determined by exact arithmetic.
+/// How the two primitives of a query first come within its separation h > 0 of each other, determined by
+/// exact arithmetic.
 struct ApproachFeatures {
   enum class Closest : std::uint8_t {
     vertices,         ///< a vertex of each primitive
@@ -54,10 +55,10 @@ struct ApproachFeatures {
 /// The features of the first approach in a query with h > 0; nothing if the distance is always above h.
 std::optional<ApproachFeatures> approach_features(const Query& query);
 
-/// A text such as "approach inside vertex-face" or "approach at-start end-end touching".
+/// The features as a text such as "approach inside vertex-face" or "approach at-start end-end touching".
 std::string to_text(Kind kind, const ApproachFeatures& features);
 
-/// A text such as "simple-root inside on-edge" or "planar at-start end-on-end degenerate".
+/// The features as a text such as "simple-root inside on-edge" or "planar at-start end-on-end degenerate".
 std::string to_text(Kind kind, const ContactFeatures& features);
 
 }  // namespace nearmiss

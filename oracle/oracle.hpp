@@ -16,14 +16,14 @@ struct Decision {
   /// For the separation h = 0: whether the closed primitives share a point at some t in [0, 1]. For h > 0:
   /// whether their distance is below h at some t in [0, 1].
   bool collision = false;
-  FilterStage stage{};  ///< `undecided` if exact arithmetic decided
-  /// Whether the smallest distance is exactly h > 0. Then a subject may answer yes or no.
+  FilterStage stage{};  ///< the stage that found the answer; `undecided` if exact arithmetic found it
+  /// Whether h > 0 and the smallest distance is exactly h. If so, a subject may answer yes or no.
   bool is_tie = false;
-  KnownTimes known = {};  ///< results from which EarliestTime can start
+  KnownTimes known = {};  ///< results of this decision, from which the search of EarliestTime can start
 };
 
-/// The decision that follows from a stage of the filter; if the stage is `undecided`, exact arithmetic
-/// decides.
+/// The decision on a query that the filter left at `stage`. If `stage` is `undecided`, exact arithmetic
+/// decides the query.
 Decision settle(const Query& query, FilterStage stage);
 
 /// Decides by the swept boxes, the certified filter, and, if these leave the query undecided, exact
@@ -31,13 +31,13 @@ Decision settle(const Query& query, FilterStage stage);
 /// ones.
 Decision decide(const Query& query);
 
-/// Decides many queries of any kinds. If all have h = 0, the filter processes them side by side. This changes
-/// no answer, but may change `Decision::stage`.
+/// Decides many queries, which may be of different kinds. If all queries have h = 0, the filter processes
+/// them side by side. This changes no answer, but it may change the `stage` of a decision.
 void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
 bool collides(const Query& query);
 
-/// The decision by exact arithmetic only.
+/// The decision on a query that exact arithmetic makes alone, without boxes and filter.
 Decision decide_exactly(const Query& query);
 bool collides_exactly(const Query& query);
 

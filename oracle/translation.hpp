@@ -11,12 +11,12 @@ namespace nearmiss {
 /// How the two primitives of a query move relative to each other.
 enum class RelativeMotion : std::uint8_t {
   rest,         ///< all four vertices have the same velocity
-  translation,  ///< all vertices of a primitive have the same velocity: F(t) is linear
+  translation,  ///< within each primitive, all vertices have the same velocity; so F(t) is linear
   other,
 };
 
-/// Finds the relative motion by exact comparisons of differences of coordinates; `other` if a difference
-/// overflows.
+/// Finds the relative motion by exact comparisons of differences of coordinates. Returns `other` if one of
+/// these differences overflows.
 RelativeMotion relative_motion(const Query& query);
 
 /// Whether primitives at relative rest or in relative translation meet. If they are at rest, exact static

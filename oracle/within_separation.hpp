@@ -9,11 +9,11 @@ namespace nearmiss {
 
 /// Facts about a query with a separation h > 0 that certified bounds prove.
 struct KnownApproach {
-  /// `boxes`, `planes` and `apart`: the distance is always above h. `within`: it falls below h. `undecided`:
-  /// neither is known.
+  /// `boxes`, `planes` and `apart`: the distance is always above h. `within`: the distance falls below h at
+  /// some time. `undecided`: the bounds prove neither of these.
   FilterStage stage{};
-  /// Contains the earliest time at which the distance is at most h, and the time at which the distance falls
-  /// below h, if there are such times.
+  /// An interval that contains the earliest time at which the distance is at most h, and the time at which
+  /// the distance falls below h, if there are such times.
   Enclosure time{0, 1};
   double estimate = 1;  ///< an uncertified estimate of the earliest time
 };

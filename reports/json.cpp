@@ -234,7 +234,7 @@ ordered_json borders_json() {
   return json;
 }
 
-/// The names of the stages that can accept a query, in order.
+/// The names of the stages that can accept a query, in the order of the enumeration Stage.
 ordered_json stages_json() {
   ordered_json json = ordered_json::array();
   for (const std::string_view each : stage_names)
@@ -261,7 +261,7 @@ void add_pictures(ordered_json& json, const Campaign& campaign) {
     }
 }
 
-/// Adds the results of other commands, and the comparison with the baseline.
+/// Adds the sections of a report that come from other commands and from the comparison with the baseline.
 void add_context(ordered_json& json, const Statistics& statistics, const ReportContext& context) {
   const auto add = [&](const char* section, const std::string& text) {
     if (!text.empty()) json[section] = ordered_json::parse(text);

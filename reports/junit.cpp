@@ -93,8 +93,8 @@ std::string commands(const Campaign& campaign) {
 }
 
 /// The shrunk queries of some findings, in the form that nearmiss replay reads. Takes only findings that
-/// `chosen` accepts, and leaves out those that reports only show. Takes the first finding of each signature,
-/// for at most three signatures.
+/// `chosen` accepts, and leaves out findings that reports show but do not count. Takes the first finding of
+/// each signature, for at most three signatures.
 template <class Chosen>
 std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) {
   constexpr std::size_t most = 3;

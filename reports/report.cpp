@@ -140,9 +140,10 @@ void replace_report(const fs::path& folder, const ReportPaths& own,
     put_in_place(part, folder, own, files);
   } catch (const std::exception& error) {
     std::error_code ignored;
-    if (!is_written) {  // if all files were written, own_files() will need report.json in `part`
+    // if all files were written, a later call of own_files() will need report.json in `part`
+    if (!is_written) {
       fs::remove_all(part, ignored);
-      fs::remove(folder, ignored);  // fails unless the folder is empty
+      fs::remove(folder, ignored);  // this fails unless the folder is empty, so other files stay
     }
     throw Error(fmt::format("{}: the report cannot be written: {}", folder.string(), error.what()));
   }

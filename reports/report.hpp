@@ -36,14 +36,15 @@ std::string junit_xml(const Campaign& campaign, const Failures& failing = usual_
 /// Lines that GitHub's workflows show as annotations: one for each failure of a subject or of the oracle.
 std::string github_annotations(const Campaign& campaign, const Failures& failing = usual_failures());
 
-/// Data that a report shows in addition to its campaign.
+/// Data that a report shows in addition to the results of its campaign.
 struct ReportContext {
   std::optional<Changes> since = {};  ///< the comparison with earlier campaigns
   std::vector<Hunt> hunts = {};       ///< how soon hunts find known defects
-  std::string audit = {};             ///< audit of rounding constants, the JSON that nearmiss audit writes
-  std::string paper = {};             ///< the paper's claims, the JSON that nearmiss paper writes
-  std::string distances = {};         ///< distances of features, from the JSON that nearmiss distance writes
-  std::string environments = {};      ///< CCDs in environments, the JSON of load_environments
+  std::string audit = {};      ///< the audit of rounding constants, as the JSON that nearmiss audit writes
+  std::string paper = {};      ///< the test of the paper's claims, as the JSON that nearmiss paper writes
+  std::string distances = {};  ///< distances of features, taken from the JSON that nearmiss distance writes
+  /// the results of CCDs in environments, as the JSON that load_environments returns
+  std::string environments = {};
   Failures failing = usual_failures();  ///< the failures that count
 };
 
@@ -71,8 +72,8 @@ void write_report(const Campaign& campaign, const ReportContext& context,
 /// Paths of files in a report's folder, such as "cases/a.case".
 using ReportPaths = std::set<std::string>;
 
-/// The paths of all files of the report that has `report` as its report.json: the files with fixed names, and
-/// the cases that report.json names.
+/// The paths of all files in the folder of a report whose report.json is `report`: the files with fixed
+/// names, and the cases that report.json names.
 ReportPaths files_of(const nlohmann::ordered_json& report);
 
 /// The files in a folder that belong to an earlier report, complete or interrupted. The set is empty if the

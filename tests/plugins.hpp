@@ -29,7 +29,7 @@ inline std::vector<Verdict> answers_of(const Subject& subject, const std::vector
   return verdicts;
 }
 
-/// A copy of a plug-in. Its path identifies the processes that load the copy.
+/// A copy of a plug-in. The path of the copy identifies the processes that load the copy.
 class CopiedPlugin {
  public:
   explicit CopiedPlugin(const std::string& name) {
@@ -43,13 +43,13 @@ class CopiedPlugin {
 
   [[nodiscard]] std::string path() const { return path_; }
 
-  /// The number of processes with path() among their arguments.
+  /// The number of processes that have path() among their arguments.
   [[nodiscard]] int processes() const {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
       std::ifstream file(entry.path() / "cmdline", std::ios::binary);
       std::string arguments;
-      std::getline(file, arguments, '\n');  // empty if the process has just ended
+      std::getline(file, arguments, '\n');  // `arguments` is empty if the process has just ended
       count += arguments.find(path_) != std::string::npos ? 1 : 0;
     }
     return count;

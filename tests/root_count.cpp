@@ -95,8 +95,8 @@ struct Polynomials {
 };
 
 /// Whether and where the primitives meet at a time when all vertices are in one plane. `at_border` means that
-/// they meet at a border of the triangle or at an end of an edge. If the normal N is 0 at this time, they may
-/// meet anywhere.
+/// they meet at a border of the triangle or at an end of an edge. If the normal N is 0 at this time,
+/// `at_border` means that the primitives meet somewhere.
 enum class Meeting { none, inside, at_border };
 
 Meeting meeting_at(const Polynomials& of, const Root& t) {

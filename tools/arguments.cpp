@@ -185,7 +185,7 @@ Subjects make_subjects(const std::vector<std::string>& texts, const isolation::P
 
 namespace {
 
-/// The families that the word "all" or "vertices" stands for; nothing for any other name.
+/// The families that the word "all" or "vertices" stands for. Returns nothing if `name` is any other word.
 std::optional<std::span<const Family>> group_of_families(std::string_view name, std::span<const Family> all) {
   if (name == "all") return all;
   if (name == "vertices") return vertex_families();

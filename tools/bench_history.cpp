@@ -75,8 +75,8 @@ nlohmann::ordered_json to_json(const BenchRun& run) {
   return {{"about", run.about}, {"rows", std::move(rows)}};
 }
 
-/// With fewer pairs of runs, even the interval from the smallest to the largest ratio contains the median
-/// with less than 95 % confidence.
+/// The smallest number of pairs of runs that are compared. With fewer pairs, even the interval from the
+/// smallest to the largest ratio contains the median with less than 95 % confidence.
 constexpr std::size_t fewest_pairs = 6;
 
 /// The factor by which the time in one row of the table of times changes between two series of runs.
@@ -118,7 +118,7 @@ void expect_pairs(const std::vector<BenchRun>& before, const std::vector<BenchRu
                             *processors.begin(), *processors.rbegin()));
 }
 
-/// The median time of a row in each run; NaN for a run without this row.
+/// For each run, the median time of a row of the table. The time is NaN for a run without this row.
 std::vector<double> medians(const std::vector<BenchRun>& runs, const TimedRow& row) {
   std::vector<double> all;
   for (const BenchRun& run : runs) {

@@ -15,7 +15,7 @@
 namespace nearmiss::tools {
 
 /// The median of the numbers, without those that are NaN. For an even count, returns the larger of the two
-/// middle numbers; without numbers, returns NaN.
+/// middle numbers. If no numbers are left, returns NaN.
 inline double median(std::vector<double> numbers) {
   std::erase_if(numbers, [](double number) { return std::isnan(number); });
   if (numbers.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -36,7 +36,8 @@ struct TimedRow {
 /// One run of nearmiss bench.
 struct BenchRun {
   RunInfo about;  ///< the commit that was timed, the compiler, its flags and the processor
-  std::map<TimedRow, std::vector<double>> times;  ///< ns per query in each pass; NaN without an answer
+  /// For each row, the time per query in each pass, in ns. The time is NaN for a pass without an answer.
+  std::map<TimedRow, std::vector<double>> times;
 };
 
 /// Reads the runs in a history, a file with a line of JSON for each run. Throws Error if the file cannot be

@@ -33,7 +33,8 @@ namespace {
 
 using TimeLimit = std::optional<std::chrono::duration<double>>;
 
-/// The finished fraction of the campaign: of its cases or of its time, whichever fraction is larger.
+/// The finished fraction of the campaign: the fraction of its cases that are done, or the fraction of its
+/// time that has passed, whichever is larger.
 std::optional<double> part_done(const CampaignProgress& now, const TimeLimit& time) {
   std::optional<double> part;
   if (now.of != 0) part = static_cast<double>(now.cases) / static_cast<double>(now.of);
@@ -181,8 +182,8 @@ std::string digest_of(const Paths& paths) {
   return digest.hex_digest();
 }
 
-/// Everything on which the campaign's results depend, except the time limit. The limit changes how many cases
-/// are asked, but not the result of a case.
+/// Everything on which the campaign's results depend, except the time limit. The time limit changes how many
+/// cases the campaign asks, but not the result of a case.
 RunInfo info_of(const CampaignOptions& options, const CampaignPlan& plan, const Subjects& subjects) {
   RunInfo info = options.trial.run_info("fuzz", subjects);
   std::string& again = info["again"];

@@ -15,7 +15,9 @@ namespace nearmiss::tools {
 struct CampaignOptions {
   TrialOptions trial;
   std::vector<std::string> families{"all"}, sweeps;
-  std::vector<std::string> kinds;  ///< short names of the kinds to ask; if empty, those of kinds_to_ask()
+  /// Short names of the kinds to ask. If the list is empty, the campaign asks the kinds that kinds_to_ask()
+  /// gives.
+  std::vector<std::string> kinds;
   SeparationOption separation;
   int steps = 17;
   bool search = false;

@@ -10,7 +10,7 @@ inline constexpr int exit_fine = 0;
 /// The shown results have a failure that is among usual_failures() (reports/statistics/failure.hpp) or that
 /// --fail-on names. The failure counts even if the baseline has the same failure.
 inline constexpr int exit_found = 1;
-inline constexpr int exit_bad_input = 2;  ///< bad usage or bad input, or output that cannot be written
+inline constexpr int exit_bad_input = 2;  ///< the usage or the input is bad, or the output cannot be written
 inline constexpr int exit_interrupted = 130;
 
 // Each function adds a subcommand to the command line. When the subcommand runs, it stores its exit code in

@@ -112,7 +112,7 @@ void expect_options(const CLI::App& app, int argc, char** argv) {
 /// A message of the command line's parser, with long words cut short. Only words that the user typed are
 /// long.
 std::string with_short_words(std::string_view text) {
-  constexpr std::size_t most = 200;  // no word that comes from the parser itself is so long
+  constexpr std::size_t most = 200;  // all words of the parser's own texts are shorter than this
   std::string result;
   while (!text.empty()) {
     const std::size_t length = std::min(text.find(' '), text.size());
@@ -270,8 +270,8 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
 }
 
-/// Ends the program at once; only results since the last save are lost. An exception would unwind through
-/// code of CGAL and GMP, and leave their numbers damaged.
+/// Ends the program at once; only the results that were added since the last save are lost. An exception
+/// would unwind through code of CGAL and GMP, and leave the numbers of these libraries damaged.
 [[noreturn]] void end_without_memory() {
   constexpr std::string_view reason = "nearmiss: found too little memory\n";
   (void)!write(STDERR_FILENO, reason.data(), reason.size());
@@ -309,12 +309,13 @@ int main(int argc, char** argv) {
   const nearmiss::PlainArithmetic plain;
   try {
     return run(argc, argv);
-  } catch (const nearmiss::Stopped&) {  // there was nothing to save yet
+  } catch (const nearmiss::Stopped&) {  // the program was stopped before it had any results to save
     return nearmiss::tools::exit_interrupted;
   } catch (const std::filesystem::filesystem_error& error) {
     print_reason(fmt::format("{}: {}", error.path1().string(), error.code().message()));
   } catch (const std::system_error& error) {
-    if (std::ferror(stdout) != 0)  // the exception of fmt::print does not name the stream
+    // If fmt::print throws the exception, its message does not say that the stream is standard output.
+    if (std::ferror(stdout) != 0)
       print_reason(fmt::format("standard output cannot be written: {}", error.code().message()));
     else
       print_reason(error.what());

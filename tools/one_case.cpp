@@ -102,8 +102,8 @@ std::vector<std::string> verdicts(const Campaign& campaign, const Failures& fail
   return lines;
 }
 
-/// The commands that simplify the query for the first subject that fails. None if no subject fails, or if the
-/// query is not the only one of a file.
+/// The commands that simplify the query for the first subject that fails. There are no such commands if no
+/// subject fails, or if the query is not the only one of a file.
 std::vector<std::string> commands(const OneCase& one, const Campaign& campaign, const Subjects& subjects,
                                   const Failures& failing) {
   if (one.file.empty()) return {};

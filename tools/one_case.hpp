@@ -13,7 +13,7 @@ namespace nearmiss::tools {
 /// The only case of a replay.
 struct OneCase {
   Query query;
-  std::string file;     ///< as the command line names it; "" if the file may have more than this case
+  std::string file;     ///< the name of the file on the command line; "" if the file may have further cases
   std::string options;  ///< options that `nearmiss shrink` needs besides --subject, each after a blank
 };
 

@@ -77,7 +77,8 @@ void CiOutput::write(const Campaign& campaign, const Failures& failing, std::FIL
 
 namespace {
 
-/// The names of the failures that count only on request: "unknown, contract, slow".
+/// The names of the failures that count only if the user names them with --fail-on:
+/// "committed, unknown, contract, slow".
 std::string names_on_request() {
   std::vector<std::string_view> names;
   for (const FailureKind kind : all_failures())
@@ -85,7 +86,8 @@ std::string names_on_request() {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// Whether a text names a fault; --fail-on need not name faults, because they always count.
+/// Whether a text is the name of a fault. Users need not name faults with --fail-on, because every fault
+/// counts as a failure anyway.
 bool is_fault(const std::string& text) {
   const auto found = std::find(fault_names.begin(), fault_names.end(), text);
   return found != fault_names.end() &&

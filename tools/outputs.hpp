@@ -84,7 +84,8 @@ class FailOnOption {
 
   [[nodiscard]] const Failures& failures() const { return failures_; }
 
-  /// exit_found if the statistics have a failure of failures(), otherwise exit_fine.
+  /// Returns exit_found if the statistics have one of the failures that failures() returns, otherwise
+  /// exit_fine.
   [[nodiscard]] int exit_code(const Statistics& statistics) const;
 
  private:

@@ -205,8 +205,8 @@ std::string expectation(const Finding& finding, const std::string& arguments, Fo
   const std::string is_right =
       python ? (collision ? "" : "not ") + detects : fmt::format("{} == {}", detects, collision);
   if (!gives_invalid_time(finding)) return is_right;
-  // If the detector reports a false positive, its time must be valid, too. If the detector reports no
-  // collision, it need not give a time.
+  // If the detector reports a collision, the test also asserts that the time is valid, even if the collision
+  // is a false positive. If the detector reports no collision, it need not give a time.
   if (python) return fmt::format("{} {} 0 <= {} <= 1", is_right, collision ? "and" : "or", time);
   return collision ? fmt::format("{0} && {1} >= 0 && {1} <= 1", is_right, time)
                    : fmt::format("{0} || ({1} >= 0 && {1} <= 1)", is_right, time);

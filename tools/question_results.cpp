@@ -27,7 +27,7 @@ std::string number(double error) { return error == 0 ? "0" : fmt::format("{:.2g}
 
 double largest(const std::vector<FarCase>& cases) { return cases.empty() ? 0 : cases.front().ratio; }
 
-/// The total of counts, and the count of each class: "3 (2 ordinary, 1 extreme)".
+/// The sum of the counts of all classes, then the count of each class: "3 (2 ordinary, 1 extreme)".
 std::string by_class(const QueryClassCounts& counts) {
   std::string classes;
   for (std::size_t i = 0; i < class_names.size(); ++i)

@@ -33,8 +33,10 @@ namespace {
 
 constexpr std::size_t printed_if_verbose = 10;  // findings
 constexpr auto save_interval = std::chrono::milliseconds(500);
-constexpr auto when_locked = std::chrono::seconds(5);           // long, because each attempt to save waits
-constexpr auto save_shrunk_interval = std::chrono::seconds(5);  // long, because a save writes all findings
+// Long, because each attempt to save waits for the lock of the store.
+constexpr auto when_locked = std::chrono::seconds(5);
+// Long, because a save of shrunk findings writes all findings.
+constexpr auto save_shrunk_interval = std::chrono::seconds(5);
 
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
@@ -143,7 +145,8 @@ Record::~Record() {
   if (!store_) return;
   try {
     if (unsaved_) save_now();
-  } catch (const std::exception&) {  // the cause, such as a full disk, has already ended the command
+  } catch (const std::exception&) {
+    // The cause of this exception, such as a full disk, has already ended the command.
   }
   if (saved_) return;
   store_.reset();
@@ -252,7 +255,8 @@ void Record::print_results(std::FILE* text, const Campaign& campaign, bool inter
   fmt::print(text, "{}", simulation_tables(statistics_));
   const auto findings = campaign.findings();
   print_broken(text, findings, statistics_);
-  std::set<Signature> printed;  // prints one finding of each way to fail
+  // The ways to fail that have been printed. Only one finding of each way to fail is printed.
+  std::set<Signature> printed;
   for (const Finding& each : findings) {
     if (!shows_findings || printed.size() == (verbose ? printed_if_verbose : 1)) break;
     if (!verbose && is_only_shown(each.what) && failing == usual_failures()) continue;
@@ -279,7 +283,7 @@ int Record::finish(bool interrupted, bool complete,
     fmt::print(text, "{}", describe(campaign));
   else
     print_results(text, campaign, interrupted);
-  std::fflush(text);  // so that the text is shown even if the file cannot be written
+  std::fflush(text);  // so that the user sees the text even if the file of --json cannot be written
   options_.json.write(summary_json(campaign));
   options_.ci.write(campaign, options_.fail_on.failures(), text);
   if (interrupted) return exit_interrupted;

@@ -33,7 +33,8 @@ struct RecordOptions {
   void add_to(CLI::App& command);
 };
 
-/// The facts of a run that all commands have: the version and the commit of nearmiss, and the command.
+/// The facts that every command stores about its run: the version and the commit of nearmiss, and the
+/// command.
 RunInfo run_info(const std::string& command);
 
 /// The facts on which a run's times depend: the compiler, its flags and the processor.
@@ -96,13 +97,14 @@ class Record {
   Shard shard_;
   double seconds_before_ = 0;
   std::optional<Store> store_;
-  bool saved_ = false;    // whether anything was ever saved
-  bool unsaved_ = false;  // something was added since the last save
+  bool saved_ = false;    // whether the store has saved results
+  bool unsaved_ = false;  // whether any result was added since the last save
   Statistics statistics_;
-  std::set<CountsKey> set_aside_;  // keys of counters of subjects that were announced as too slow
+  // For each announcement that a subject is too slow, the key of the counters of this subject.
+  std::set<CountsKey> set_aside_;
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;
-  bool unsaved_shrunk_ = false;  // a finding was shrunk since it was saved
+  bool unsaved_shrunk_ = false;  // whether a finding was shrunk after it had been saved
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_save_ = start_;
   Clock::time_point last_save_of_shrunk_ = start_;

@@ -18,7 +18,7 @@ Scene open_scene(const std::vector<std::string>& arguments);
 
 struct SceneSubjects {
   Subjects subjects;
-  std::optional<double> bound = {};  ///< the scene's bound, if a subject needs it
+  std::optional<double> bound = {};  ///< the largest bound of the scene's pairs, if a subject is to use it
 };
 
 /// Makes each subject of `trial` once with each of `bounds`: "pair", "scene" or a number B. A subject's name

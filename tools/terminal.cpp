@@ -24,8 +24,8 @@ std::atomic<bool> stop_requested{false};
 std::atomic<std::time_t> first_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::time_t>::is_always_lock_free);
 
-/// Ends the program, unless this signal comes right after the signal that set the flag: then it may be only a
-/// repetition of that signal.
+/// Ends the program, unless this signal comes right after the signal that set the flag. In that case, the
+/// later signal may be only a repetition of the earlier one.
 extern "C" void end_on_signal(int /*signal*/) {
   constexpr std::time_t patience = 2;  // seconds; wrappers such as timeout(1) send a signal twice at once
   if (std::time(nullptr) - first_signal < patience) return;
@@ -74,8 +74,9 @@ std::string cut(std::string line) {
 }  // namespace
 
 void occupy_standard_streams() {
-  // open() takes the lowest free descriptor. Opens standard input for writing, and the other streams for
-  // reading, so that using them still fails.
+  // open() takes the lowest free descriptor, so the descriptors of closed streams are filled one after the
+  // other. Opens standard input for writing, and the other streams for reading, so that the use of a stream
+  // that was closed still fails.
   using Stream = std::pair<int, int>;
   for (const auto& [descriptor, direction] :
        {Stream{STDIN_FILENO, O_WRONLY}, Stream{STDOUT_FILENO, O_RDONLY}, Stream{STDERR_FILENO, O_RDONLY}})

@@ -21,8 +21,9 @@ void occupy_standard_streams();
 void end_on_signals();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that the program can save its results; a second
-/// signal, at least two seconds later, ends the program at once. Call this only once there is something to
-/// save: until then, for example while the program loads files, a signal should end the program at once.
+/// signal, at least two seconds later, ends the program at once. Call this function only when there is
+/// something to save: until then, for example while the program loads files, a signal should end the program
+/// at once.
 void stop_on_signals();
 /// The flag that signals set after stop_on_signals().
 const std::atomic<bool>& interrupted();

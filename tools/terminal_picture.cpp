@@ -59,7 +59,8 @@ class Projection {
       lo_[k] = HUGE_VAL;
       double hi = -HUGE_VAL;
       for (std::size_t i = k; i < 24; i += 3) {
-        lo_[k] = std::min(lo_[k], query.x[i] / 4);  // so that no difference overflows
+        // Divides coordinates by 4, so that no difference of two coordinates overflows.
+        lo_[k] = std::min(lo_[k], query.x[i] / 4);
         hi = std::max(hi, query.x[i] / 4);
       }
       extent[k] = hi - lo_[k];
@@ -100,7 +101,8 @@ std::string terminal_picture(const Query& query, double time) {
     sheet.draw(at(i, time), at(j, time), mark);
   };
   const auto& edges = topology(query.kind).edges;
-  for (std::size_t i = edges.size(); i-- > 0;)  // draws the first primitive last, on top
+  // Draws the edges of the first primitive last, so that they are on top.
+  for (std::size_t i = edges.size(); i-- > 0;)
     edge(edges[i].from, edges[i].to, edges[i].from == 0 ? 'o' : '#');
   constexpr std::string_view numbers = "0123";
   for (std::size_t i = 4; i-- > 0;) sheet.draw(at(i, time), numbers[i]);

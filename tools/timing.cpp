@@ -79,7 +79,8 @@ Counts judge(const Subject& subject, std::span<const Query> queries, std::span<c
       decide(rounded, truths);
       for (std::size_t i = start; i < end; ++i) {
         const Decision& truth = truths[i - start];
-        if (verdicts[i].fault != Fault::none || truth.is_tie) continue;  // for a tie, yes and no are right
+        // If the query is a tie, both answers are right.
+        if (verdicts[i].fault != Fault::none || truth.is_tie) continue;
         ++own.queries;
         own.collisions += truth.collision ? 1 : 0;
         own.false_negatives += truth.collision && !verdicts[i].hit ? 1 : 0;

@@ -17,9 +17,11 @@ using RunTimes = std::vector<double>;
 /// The measurements of one subject on one input. Each list has one entry for each run.
 struct Measured {
   RunTimes times;
-  RunTimes kernels;     ///< times without the copies to a device; NaN if the subject does not give this time
+  /// The times without the time for copying data to a device; NaN if the subject does not give these times.
+  RunTimes kernels;
   RunTimes throughput;  ///< queries per second of wall-clock time; NaN for a subject without its own process
-  std::optional<Counts> judged = {};  ///< the judged answers of the last run; only answered queries count
+  /// Counts the judged answers of the last run; leaves out queries without an answer.
+  std::optional<Counts> judged = {};
 };
 
 bool any_separation(const std::vector<Query>& queries);

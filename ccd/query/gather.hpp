@@ -16,7 +16,8 @@
 
 namespace nearmiss::interface {
 
-/// Whether the queries can be read: their kind and type are known, and no required pointer is null.
+/// Whether the queries can be read: their kind and the type of their numbers are known, and no required
+/// pointer is null.
 inline bool are_readable(const nearmiss_queries* queries) {
   return queries != nullptr && kind_of_bit(queries->kind).has_value() &&
          (queries->type == NEARMISS_DOUBLE || queries->type == NEARMISS_FLOAT) &&
@@ -54,7 +55,8 @@ inline bool is_answerable(const Query& query) {
   return query.separation >= 0 && query.separation < HUGE_VAL && is_finite(query);
 }
 
-/// Whether each query's coordinates at t = 0 are contiguous, and so are those at t = 1. T must be their type.
+/// Whether the coordinates of each query at t = 0 are contiguous, and its coordinates at t = 1 are
+/// contiguous, too. T must be the type of the coordinates.
 template <class T>
 bool has_packed_points(const nearmiss_queries& queries) {
   return queries.coordinate_stride == sizeof(T) && queries.vertex_stride == 3 * sizeof(T) &&
@@ -134,10 +136,11 @@ int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, cons
   return status;
 }
 
-/// Copies the queries into blocks, and calls visit(block, first) for each. Coordinates have the type T.
+/// Copies the queries into blocks, and calls visit(block, first) for each block. T must be the type of the
+/// coordinates in the caller's memory.
 template <class T, class Visit>
 int for_copies(const nearmiss_queries& queries, Kind kind, const Visit& visit) {
-  constexpr std::size_t most = 128;  // so many queries fit into the L1 cache
+  constexpr std::size_t most = 128;  // this number of queries fits into the L1 cache
   union Block {                      // a union, so that only the queries in use are initialised
     Block() {}
     Query queries[most];

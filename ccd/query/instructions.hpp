@@ -8,8 +8,8 @@
 namespace nearmiss {
 
 /// The x86-64 instruction sets whose registers hold 2, 4 and 8 doubles. On other processors, `sse2` means
-/// vectors of two doubles as the compiler implements them, with NEON for example. The choice changes no
-/// answer.
+/// vectors of two doubles as the compiler implements them, with NEON for example. The choice of the
+/// instruction set changes no answer.
 enum class Instructions : std::uint8_t { sse2, avx2, avx512 };
 
 inline constexpr std::array all_instructions{Instructions::sse2, Instructions::avx2, Instructions::avx512};

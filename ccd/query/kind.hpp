@@ -23,13 +23,13 @@ enum class Kind : std::uint8_t {
 inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge, Kind::vertex_vertex,
                                   Kind::vertex_edge};
 
-/// The kinds of pairs that decide whether triangle meshes collide.
+/// The kinds of queries that decide whether two triangle meshes collide.
 inline constexpr std::array kinds_of_meshes{Kind::vertex_triangle, Kind::edge_edge};
 
 /// The other kinds, whose queries have fewer than four vertices.
 inline constexpr std::array kinds_of_vertices{Kind::vertex_vertex, Kind::vertex_edge};
 
-/// The sorts of primitives. The value of each is its number of vertices.
+/// The sorts of primitives. The value of each enumerator is the number of vertices of the primitive.
 enum class Primitive : std::uint8_t { vertex = 1, edge = 2, triangle = 3 };
 
 /// Two vertices, by their numbers in a query.
@@ -53,11 +53,11 @@ struct Topology {
   Primitive first;                    ///< the primitive with the vertices x[0 .. split)
   Primitive second;                   ///< the primitive with the vertices x[split .. vertices)
   std::span<const VertexPair> edges;  ///< the edges of both primitives
-  std::span<const VertexPair> gaps;   ///< each vertex of the first primitive with each of the second
+  std::span<const VertexPair> gaps;   ///< each vertex of the first primitive with each vertex of the second
   /// Each vertex with each edge of the other primitive; the vertices of the first primitive come first. The
   /// kind vv counts as a vertex x0 and an edge x1x2 of length 0.
   std::span<const VertexAndEdge> vertices_and_edges;
-  std::span<const VertexAndEdge> first_to_second;  ///< those with a vertex of the first primitive
+  std::span<const VertexAndEdge> first_to_second;  ///< the pairs whose vertex is in the first primitive
   std::span<const VertexAndEdge> second_to_first;  ///< those with a vertex of the second primitive
   /// The paper's vectors p, q and r, each as x_to - x_from. N = q × r is the normal, and F = p · N is the
   /// coplanarity (§3.3, §3.4).

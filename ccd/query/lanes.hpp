@@ -37,7 +37,7 @@ struct Lanes {
     friend Mask operator!=(const Mask& a, const Mask& b) { return Mask(a.bits ^ b.bits); }
     friend Mask operator!(const Mask& a) { return Mask(~a.bits); }
     bool operator[](std::size_t lane) const { return std::bit_cast<EachInteger>(bits)[lane] != 0; }
-    /// `number` in the lanes in which the mask is true, 0 in the others.
+    /// Integers that are `number` in the lanes in which the mask is true, and 0 in the other lanes.
     [[nodiscard]] Integers as(std::int64_t number) const { return bits & number; }
 
     friend bool any_of(const Mask& a) {
@@ -62,7 +62,7 @@ struct Lanes {
     return lanes;
   }
   void store(double* to) const { std::memcpy(to, &v, sizeof(v)); }
-  /// The lanes number(0), number(1), ...
+  /// Lanes with the values number(0), number(1), ...
   template <class Number>
   static Lanes gather(const Number& number) {
     std::array<double, n> numbers;
@@ -88,7 +88,7 @@ struct Lanes {
   friend Mask operator==(const Lanes& a, const Lanes& b) { return Mask(a.v == b.v); }
   friend Mask operator!=(const Lanes& a, const Lanes& b) { return Mask(a.v != b.v); }
 
-  /// a in the lanes in which the mask is true, b in the others.
+  /// The values of `a` in the lanes in which the mask is true, and the values of `b` in the other lanes.
   friend Lanes select(const Mask& mask, const Lanes& a, const Lanes& b) {
     return Lanes(mask.bits ? a.v : b.v);
   }
@@ -130,7 +130,7 @@ struct ScalarIn<Lanes<n>> {
 
 }  // namespace nearmiss
 
-/// Lets Eigen's vectors hold lanes.
+/// Lets the components of Eigen's vectors be of the type Lanes.
 template <int n>
 struct Eigen::NumTraits<nearmiss::Lanes<n>> : Eigen::GenericNumTraits<nearmiss::Lanes<n>> {
   using Real = nearmiss::Lanes<n>;

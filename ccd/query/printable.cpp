@@ -26,8 +26,8 @@ std::size_t printable_sequence(std::string_view text) {
   constexpr std::array<std::uint32_t, 5> least{0, 0, 0x80, 0x800, 0x10000};
   const bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
   const bool is_control = code < 0xa0;
-  // Characters that are not seen. They end a line, change the direction of other text, or make two different
-  // texts look alike.
+  // Characters that a reader does not see. These characters end a line, change the direction of other text,
+  // or make two different texts look alike.
   using Range = std::pair<std::uint32_t, std::uint32_t>;
   constexpr std::array<Range, 23> unseen{
       {{0xad, 0xad},       {0x34f, 0x34f},     {0x61c, 0x61c},    {0x115f, 0x1160}, {0x180b, 0x180f},

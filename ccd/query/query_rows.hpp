@@ -9,9 +9,9 @@
 
 namespace nearmiss {
 
-/// Queries of 24 contiguous coordinates each, in the order of Query::x and with repeated vertices. They are a
-/// span of Query values, or an array of doubles in a calling program; the queries of an array have one kind
-/// and the separation 0. The memory must outlive the view.
+/// Queries of 24 contiguous coordinates each, in the order of Query::x and with repeated vertices. The
+/// queries are a span of Query values, or an array of doubles in a calling program; the queries of an array
+/// have one kind and the separation 0. The memory that holds the queries must outlive the view.
 class QueryRows {
  public:
   explicit QueryRows(std::span<const Query> queries)

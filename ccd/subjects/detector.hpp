@@ -16,10 +16,10 @@ namespace nearmiss {
 
 /// The description that a detector gives of itself in its nearmiss_subject.
 struct DetectorInfo {
-  std::string name;  ///< with its options
+  std::string name;  ///< the name of the detector, with its options
   std::string version = {}, about = {};
   int kinds = 0;
-  bool is_narrow = false;  ///< whether it takes coordinates of 24 bits
+  bool is_narrow = false;  ///< whether the detector takes coordinates rounded to 24 bits
   TimeSort time_sort{};
   int separation_kinds = 0;  ///< the kinds for which it uses h, as a sum of bits
   int distance_kinds = 0;    ///< the kinds for which it gives distances, as a sum of bits
@@ -36,7 +36,7 @@ inline constexpr std::size_t most_detectors = 64;         ///< in a shared objec
 inline constexpr std::size_t longest_name = 255;          ///< in bytes
 inline constexpr std::size_t largest_batch = 10'000'000;  ///< in queries
 
-/// How a nearmiss_subject contradicts nearmiss_subject.h; "" if it does not.
+/// Says how a nearmiss_subject contradicts the rules of nearmiss_subject.h; "" if it follows all of them.
 std::string fault_of(const nearmiss_subject& subject);
 /// Throws an Error that begins with `where` if a detector contradicts nearmiss_subject.h, was compiled with
 /// an unknown version of this header, or has a name in `other_names`.
@@ -100,7 +100,8 @@ class Detector {
   [[nodiscard]] const nearmiss_subject& subject() const { return subject_; }
 
   /// Decides answers.size() queries of one kind. `x` and `separations` are as for decide() in
-  /// nearmiss_subject.h; if the detector takes floats, the caller has rounded them.
+  /// nearmiss_subject.h; if the detector takes floats, the caller must have rounded the numbers in `x` and
+  /// `separations` to float.
   void decide(Kind kind, const double* x, const double* separations, std::span<int> answers,
               std::span<double> times) const;
   [[nodiscard]] BoundAnswer bound(Kind kind, const double* x, double separation) const;

@@ -10,12 +10,12 @@
 
 namespace nearmiss {
 
-/// A number in State that the user may set by KEY=VALUE.
+/// A member of State that is a number, which the user may set by KEY=VALUE.
 template <class State>
 struct Option {
   const char* key;
   double State::*value;
-  double least, most;  ///< the range of allowed values
+  double least, most;  ///< the least and the largest value that the user may set
 };
 
 /// Sets one option. `text` is KEY=VALUE, and `is_set` marks the options that have been set. Returns false if

@@ -21,17 +21,17 @@ inline bool is_program(std::string_view name) { return name.starts_with(program_
 /// Whether a path leads to a regular file; false after an error, such as a path that is too long.
 bool is_file(std::string_view path);
 
-/// Whether a subject's name is that of a program or of a shared object, whose path must have a '/'.
+/// Whether a subject's name names a program or a shared object. The path of a shared object must have a '/'.
 bool is_plugin(std::string_view name);
 
 /// A name on the command line, PATH[:SUBJECT][:KEY=VALUE]..., divided into its parts. The path is the
 /// shortest prefix that has a '/', is a file, and ends at a ':' or at the end of the name.
 struct PluginName {
   std::string path;
-  std::string subject;  ///< one of the shared object's detectors; "" if the name gives none
+  std::string subject;  ///< the name of a detector of the shared object; "" if the command line names none
   std::string options;  ///< "KEY=VALUE:KEY=VALUE"
 
-  /// Throws Error if the name has two SUBJECTs, or one after a KEY=VALUE.
+  /// Throws Error if the name has two SUBJECTs, or has a SUBJECT after a KEY=VALUE.
   static PluginName parse(std::string_view name);
 };
 

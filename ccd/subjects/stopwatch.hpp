@@ -92,7 +92,8 @@ inline std::uint64_t less_overhead(std::uint64_t time, std::uint64_t overhead) {
   return time - std::min(overhead, time);
 }
 
-/// The time of `work` minus the time of `nothing`, which does the same without the subject.
+/// The time of `work` minus the time of `nothing`. `nothing` must do the same as `work`, except for what the
+/// subject computes.
 template <class Work, class Nothing>
 std::uint64_t time_beyond(clockid_t clock, const Work& work, const Nothing& nothing) {
   const std::uint64_t overhead = time_of(clock, nothing);

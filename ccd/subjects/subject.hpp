@@ -35,29 +35,31 @@ constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_c
 /// Whether times of this sort are not after t*.
 constexpr bool is_lower_bound(TimeSort sort) { return sort >= TimeSort::lower_bound; }
 
-/// The assumptions of a subject about its queries. The subject is not judged on queries that violate an
-/// assumption. A field that is 0 or false assumes nothing.
+/// What a subject assumes about the queries that it is asked. The subject is not judged on queries that
+/// violate an assumption. A field that is 0 or false stands for no assumption.
 struct Contract {
   bool apart_at_start = false;  ///< the distance of the primitives at t = 0 exceeds `apart_by` and h
-  bool one_root = false;  ///< the volume that the vertices span has at most one root in [0, 1], a simple one
-  double apart_by = 0;    ///< used with apart_at_start
-  double grid = 0;        ///< a power of two of which every coordinate is a multiple
-  double shortest = 0;    ///< all edges, at t = 0 and t = 1, are at least this long
-  double longest = 0;     ///< all these edges, and the paths of the vertices, are at most this long
+  /// The volume that the vertices span, as a function of time, has at most one root in [0, 1], and this root
+  /// is simple.
+  bool one_root = false;
+  double apart_by = 0;  ///< used with apart_at_start
+  double grid = 0;      ///< a power of two of which every coordinate is a multiple
+  double shortest = 0;  ///< all edges, at t = 0 and t = 1, are at least this long
+  double longest = 0;   ///< all edges, and the paths of all vertices, are at most this long
 
   bool operator==(const Contract&) const = default;
 };
 
 /// A subject's answer when it is asked for its distance bound.
 struct BoundAnswer {
-  double bound = std::numeric_limits<double>::quiet_NaN();  ///< as the subject gives it
+  double bound = std::numeric_limits<double>::quiet_NaN();  ///< the number that the subject gives
   Fault fault = Fault::none;                                ///< if not `none`, there is no bound
   std::int32_t fault_code = 0;                              ///< as in Verdict
 
-  /// The answer with this bound. A bound that is negative or NaN is the fault `error`.
+  /// The answer that gives `bound`. If the bound is negative or NaN, the answer has the fault `error`.
   static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
 
-  /// The bound; NaN if there is none because of a fault.
+  /// The bound; NaN if the answer has no bound because of a fault.
   [[nodiscard]] double bound_or_nan() const {
     return fault == Fault::none ? bound : std::numeric_limits<double>::quiet_NaN();
   }
@@ -69,12 +71,13 @@ struct DistanceAnswer {
 
   double distance = none;
   /// For each vertex, its weight in the closest point of its primitive. The weights of each primitive add up
-  /// to 1. All weights are NaN if the subject gives none.
+  /// to 1. All weights are NaN if the subject gives no weights.
   std::array<double, 4> weights{none, none, none, none};
   Fault fault = Fault::none;    ///< if not `none`, there is no distance
   std::int32_t fault_code = 0;  ///< as in Verdict
 
-  /// The answer with this distance. A distance that is negative or not finite is the fault `invalid`.
+  /// The answer that gives `distance` and `weights`. If the distance is negative or not finite, the answer
+  /// has the fault `invalid`.
   static DistanceAnswer given(double distance, const std::array<double, 4>& weights) {
     const bool is_distance = distance >= 0 && distance <= std::numeric_limits<double>::max();
     return {distance, weights, is_distance ? Fault::none : Fault::invalid};
@@ -83,13 +86,14 @@ struct DistanceAnswer {
 
 /// A subject's answer when it is asked to filter a step.
 struct StepAnswer {
-  std::array<double, 12> y{};  ///< the positions to which the vertices may move; x, y, z of each
-  double clearance = std::numeric_limits<double>::quiet_NaN();  ///< the distance kept, as the subject claims
-  Fault fault = Fault::none;                                    ///< if not `none`, there is no answer
-  std::int32_t fault_code = 0;                                  ///< as in Verdict
+  std::array<double, 12> y{};  ///< the positions to which the vertices may move: x, y, z of each vertex
+  /// The subject claims that the distance of the primitives never falls below this length.
+  double clearance = std::numeric_limits<double>::quiet_NaN();
+  Fault fault = Fault::none;    ///< if not `none`, there is no answer
+  std::int32_t fault_code = 0;  ///< as in Verdict
 
-  /// The answer with these positions of `vertices` vertices, and this clearance. A number that is not finite,
-  /// or a negative clearance, is the fault `invalid`.
+  /// The answer that gives the positions `y` of `vertices` vertices, and `clearance`. If a number is not
+  /// finite, or the clearance is negative, the answer has the fault `invalid`.
   static StepAnswer given(const std::array<double, 12>& y, double clearance, int vertices) {
     constexpr double most = std::numeric_limits<double>::max();
     bool is_finite = clearance >= 0 && clearance <= most;
@@ -106,8 +110,8 @@ struct StepAnswer {
 struct BatchTime {
   std::size_t queries = 0;  ///< the timed queries; parts of the batch in which a process failed do not count
   std::uint64_t nanoseconds = 0;
-  std::uint64_t kernel_nanoseconds =
-      0;  ///< the time without copies to and from a device; 0 if the subject does not give it
+  /// The time without the copies to and from a device; 0 if the subject does not give this time.
+  std::uint64_t kernel_nanoseconds = 0;
 };
 
 /// A CCD on trial: a pure function of the query. The built-in subjects compute in plain arithmetic
@@ -119,7 +123,7 @@ class Subject {
   Subject& operator=(const Subject&) = delete;
   virtual ~Subject() = default;
 
-  /// The name in reports. For a plug-in, it is the name that the detector gives itself.
+  /// The name of the subject in reports. A plug-in has the name that its detector gives itself.
   [[nodiscard]] virtual const std::string& name() const = 0;
 
   /// Throws Error if a coordinate is not finite.
@@ -130,20 +134,21 @@ class Subject {
     for (std::size_t i = 0; i < queries.size(); ++i) verdicts[i] = decide(queries[i]);
   }
 
-  /// As decide(), and returns how long the decisions took.
+  /// Decides the queries as decide() does, and returns how long the decisions took.
   virtual BatchTime decide_timed(std::span<const Query> queries, std::span<Verdict> verdicts) const;
 
-  /// Writes the time for each query on its own, in ns: the shortest of three tries, or nothing if the subject
-  /// does not answer.
+  /// Measures how long the subject takes to decide each query on its own. Writes the shortest time of three
+  /// tries, in ns, or nothing if the subject does not answer the query.
   virtual void time_each(std::span<const Query> queries,
                          std::span<std::optional<std::uint64_t>> nanoseconds) const;
 
-  /// The bound that the subject claims: if it reports the query falsely, the smallest distance exceeds the
-  /// separation by at most this length, in the query's unit. Infinity if the subject claims no bound, or one
-  /// above the largest double; NaN if it fails to answer.
+  /// The distance bound that the subject claims: if the subject reports the query falsely, the smallest
+  /// distance exceeds the separation by at most this length, in the query's unit. The result is infinity if
+  /// the subject claims no bound, or a bound above the largest double, and NaN if the subject fails to
+  /// answer.
   [[nodiscard]] virtual double distance_bound(const Query& query) const = 0;
 
-  /// The distance bound, or the fault because of which there is none.
+  /// The distance bound that the subject claims, or the fault because of which the subject gave no bound.
   [[nodiscard]] virtual BoundAnswer ask_bound(const Query& query) const {
     return BoundAnswer::given(distance_bound(query));
   }
@@ -166,14 +171,15 @@ class Subject {
     return {.fault = Fault::not_asked};
   }
 
-  /// Whether the subject claims a distance bound. It does so for all queries or for none.
+  /// Whether the subject claims a distance bound. A subject claims a bound for all queries or for no query.
   [[nodiscard]] virtual bool claims_bound() const { return true; }
 
-  /// Whether the subject decides queries of a kind. It is asked only queries of such kinds.
+  /// Whether the subject decides queries of a kind. nearmiss asks a subject only queries of the kinds that it
+  /// decides.
   [[nodiscard]] virtual bool decides(Kind kind) const { return is_of_meshes(kind); }
 
-  /// Whether the subject decides queries of a kind with a separation h > 0. If not, it is asked only for
-  /// contact.
+  /// Whether the subject decides queries of a kind with a separation h > 0. If not, nearmiss asks the subject
+  /// only for contact.
   [[nodiscard]] virtual bool takes_separation(Kind /*kind*/) const { return false; }
 
   /// Whether the subject is asked queries of this kind, with a separation h > 0 if `has_separation` is true.
@@ -202,15 +208,15 @@ class Subject {
 
   /// The smallest factor with which the subject would report the query if D, √δ, √ψ, S and ∛μ, the tolerances
   /// that decide whether it accepts a pair, were multiplied by this factor. The factor is at most 1 if the
-  /// subject reports the query as it is. It shows directed search how near the query is to the opposite
-  /// answer. It is accurate to a few bits, and NaN if the subject does not give it.
+  /// subject reports the query as it is. The factor shows directed search how near the query is to the
+  /// opposite answer. The factor is accurate to a few bits, and is NaN if the subject does not give it.
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
 
  protected:
-  /// A subject that computes nothing. Its run time, the overhead of the calls, is subtracted from that of
-  /// this subject.
+  /// A subject that computes nothing. The run time of the empty subject is the overhead of the calls, and is
+  /// subtracted from the run time of this subject.
   [[nodiscard]] virtual const Subject& empty() const;
 };
 
@@ -228,11 +234,12 @@ inline constexpr std::string_view of_scene = "@scene";
 /// Makes a built-in subject from its name, or a Plugin from a name with a '/'. NAME may end in options,
 /// :KEY=NUMBER. NAME@B gives the subject the bound B; NAME and NAME@scene give it `given_bound`. Both bounds
 /// are in the queries' unit of length. The given bound replaces every pair's own bound B (§5 of the paper);
-/// subjects without B ignore it. Throws Error for an unknown name or option, or an unusable plug-in.
+/// subjects that use no bound B ignore the given bound. Throws Error for an unknown name or option, or an
+/// unusable plug-in.
 std::unique_ptr<Subject> make_subject(std::string_view name_or_path,
                                       std::optional<double> given_bound = std::nullopt);
 
-/// As make_subject(), but returns null for an unknown name.
+/// Makes a subject as make_subject() does, but returns null for an unknown name.
 std::unique_ptr<Subject> try_make_subject(std::string_view name_or_path, std::optional<double> given_bound);
 
 /// A subject's name without its suffix, and the bound that the suffix gives.
@@ -240,8 +247,8 @@ struct SplitName {
   std::string_view name;
   std::optional<double> bound;
 };
-/// Splits the suffix "@B" or "@scene" off a name. "@B" gives the bound B. "@scene" gives `given_bound`, and
-/// so does a name without a suffix. If there is no `given_bound`, "@scene" stays in the name. The name of a
+/// Splits the suffix "@B" or "@scene" off a name. "@B" gives the bound B. "@scene" and a name without a
+/// suffix both give `given_bound`. If there is no `given_bound`, "@scene" stays in the name. The name of a
 /// plug-in has no suffix. Throws Error if B is a number that is not positive and finite.
 SplitName split_bound(std::string_view name, std::optional<double> given_bound);
 

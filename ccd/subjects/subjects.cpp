@@ -210,8 +210,8 @@ constexpr std::array<Option<WangEps>, 1> options_of<WangEps>{{{"h", &WangEps::h,
 
 struct Entry {
   SubjectInfo info;
-  /// Makes the subject `name` with these options. Returns null if there are options, but the subject has
-  /// none.
+  /// Makes the subject `name` with these options. Returns null if `options` is not empty, but the subject has
+  /// no options.
   std::unique_ptr<Subject> (*make)(std::string_view name, const std::string& options,
                                    std::optional<double> given);
 };

@@ -58,11 +58,13 @@ DifferencePolygon<kind, T> difference_polygon(const Query& query) {
   return DifferencePolygon<kind, T>(query, frame);
 }
 
-/// The point of a polygon nearest to the origin, up to rounding.
+/// The distance of the origin from the nearest point of a polygon, and the direction to this point, both up
+/// to rounding.
 template <class T>
 struct NearestPoint {
   T squared_distance = std::numeric_limits<T>::infinity();
-  Vector3<T> direction;  ///< of any length; a plane perpendicular to it separates the polygon from the origin
+  /// A vector of any length. A plane perpendicular to this vector separates the polygon from the origin.
+  Vector3<T> direction;
 
   void consider(const Vector3<T>& point, const Vector3<T>& towards) {
     const T squared = dot(point, point);
@@ -161,8 +163,8 @@ bool boxes_stay_apart(const DifferencePolygon<kind, T>& polygon, T distance) {
   return (lowest > distance).any() || (highest < -distance).any();
 }
 
-// The time until which all corners stay beyond `distance` along a direction: at most t + 2; t if some corner
-// is not beyond `distance` at t.
+// The time until which all corners stay beyond `distance` along a direction: the result is at most t + 2, and
+// is t if some corner is not beyond `distance` at t.
 template <Kind kind, class T, class Corners>
 [[gnu::always_inline]] inline T beyond_until(const DifferencePolygon<kind, T>& polygon, const Corners& at_t,
                                              T t, const Vector3<T>& direction, T distance) {

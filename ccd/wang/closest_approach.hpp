@@ -17,7 +17,7 @@ namespace nearmiss {
 namespace detail {
 
 /// The zeros in (0, 1) of the polynomial c[0] + c[1] t + c[2] t² + ..., up to rounding errors. The zeros of
-/// its derivative divide (0, 1) into parts in which the polynomial is monotone.
+/// the polynomial's derivative divide (0, 1) into parts in which the polynomial is monotone.
 inline std::vector<double> zeros_in_step(const std::vector<double>& c) {
   if (c.size() < 2) return {};
   std::vector<double> derivative;
@@ -52,8 +52,8 @@ inline std::vector<double> product(const std::vector<double>& a, const std::vect
   return c;
 }
 
-/// The squared distance of a vertex from an edge. The arguments are the vectors from one end of the edge to
-/// the vertex and to the other end. The edge may be a point.
+/// The squared distance of a vertex from an edge. `vertex` and `edge` are the vectors from one end of the
+/// edge to the vertex and to the other end of the edge. The edge may be a point.
 inline double squared_edge_distance(const Vector3<double>& vertex, const Vector3<double>& edge) {
   const double ll = edge.dot(edge);
   const double weight = ll > 0 ? std::clamp(vertex.dot(edge) / ll, 0.0, 1.0) : 0;
@@ -86,7 +86,8 @@ struct Approach {
     };
     add_nearest(a, va);
     add_nearest(a - e, va - ve);
-    // The squared distance from the line is N / D, which has its extrema where N' D - N D' is 0.
+    // The squared distance of x0 from the line of the edge is N / D. This quotient has its extrema where
+    // N' D - N D' is 0.
     const Vector q0 = a.cross(e);
     const Vector q1 = a.cross(ve) + va.cross(e);
     const Vector q2 = va.cross(ve);

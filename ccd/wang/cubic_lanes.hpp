@@ -88,7 +88,7 @@ Real contribution(const Bracket<Real>& interval, const typename Real::Mask& exis
   return select(exists, found, is(nothing));
 }
 
-/// refine_root() in the active lanes; 0 in the other lanes.
+/// Refines the roots of the active lanes as refine_root() does. The result is 0 in the other lanes.
 template <class Real>
 Real refined(const Cubic<Real>& F, Bracket<Real> bracket, const Real& mu, typename Real::Mask active) {
   using Mask = typename Real::Mask;

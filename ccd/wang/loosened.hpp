@@ -7,8 +7,8 @@
 
 namespace nearmiss {
 
-/// The tolerances of a rule, loosened by the factor s: the lengths D, √δ, √ψ, S and ∛μ, which decide whether
-/// a pair is accepted, are multiplied by s.
+/// The rule that gives the tolerances of another rule, loosened by the factor s: the lengths D, √δ, √ψ, S and
+/// ∛μ, which decide whether a pair is accepted, are multiplied by s.
 template <class Rule>
 struct Loosened {
   Rule tolerances;
@@ -41,9 +41,9 @@ struct Loosened {
   }
 };
 
-/// The factor s, to about 1 %, at which hits(s) changes from false to true. hits(s) is whether the CCD
-/// reports the query with tolerances loosened by s. The result is 2^-40 if hits(2^-40) is true, and 2^8 if
-/// hits(2^8) is false.
+/// The factor s, to about 1 %, at which hits(s) changes from false to true. hits(s) must say whether the CCD
+/// reports the query if the tolerances are loosened by s. The result is 2^-40 if hits(2^-40) is true, and 2^8
+/// if hits(2^8) is false.
 template <class Hits>
 double least_loosening(const Hits& hits) {
   double lo = -40;

@@ -63,7 +63,7 @@ struct Frame {
   bool reduced = false;
 
   [[nodiscard]] bool identity() const { return exponent == 0 && !reduced; }
-  /// A length in the frame is the length in the query times 2^total().
+  /// A length in the frame is the same length in the query, multiplied by 2^total().
   [[nodiscard]] int total() const { return exponent - (reduced ? reduction : 0); }
 
   static constexpr int reduction = 4;
@@ -200,8 +200,9 @@ auto in_range(T B) {
   return (B <= T(root * root)) & (B >= T(1 / (root * root)));
 }
 
-/// The frame in which B is in [1, 2), for finite coordinates of any magnitude; the identity if B is already
-/// in range or is 0. bound_in(frame) gives B in a frame, or NaN if B cannot be computed in this frame.
+/// The frame in which B is in [1, 2), for finite coordinates of any magnitude. The frame is the identity if B
+/// is already in range or is 0. bound_in(frame) gives B in a frame, or NaN if B cannot be computed in this
+/// frame.
 template <class T, class BoundIn>
 Frame frame_for(const BoundIn& bound_in) {
   Frame frame;

@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// The bound B of one pair (§4.1), in the unit of the query's coordinates; infinity if it exceeds the largest
-/// double. The bound B of a scene is the largest B of its pairs.
+/// The bound B of one pair (§4.1), in the unit of the query's coordinates; infinity if the bound exceeds the
+/// largest double. The bound B of a scene is the largest B of its pairs.
 template <Kind kind>
 double pair_bound(const Query& query) {
   const auto in = [&](const Frame& frame) {
@@ -27,9 +27,9 @@ inline double pair_bound(const Query& query) {
   return with_kind(query.kind, [&]<Kind kind>() { return pair_bound<kind>(query); });
 }
 
-/// If `wang` reports a pair with the bound B falsely, the pair's smallest distance is at most this bound. It
-/// is computed from the tolerances for B = 1, with which nothing overflows, and rounded up, so that it is not
-/// 0 for a tiny pair.
+/// If `wang` reports a pair with the bound B falsely, the pair's smallest distance is at most this bound. The
+/// bound is computed from the tolerances for B = 1, with which nothing overflows, and rounded up, so that it
+/// is not 0 for a tiny pair.
 inline double distance_bound_of(const Tolerances<double>& at_one, double B) {
   return std::nextafter(at_one.distance_bound() * B, std::numeric_limits<double>::infinity());
 }

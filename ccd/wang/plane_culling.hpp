@@ -34,9 +34,9 @@ template <Kind kind, class Coordinate>
 
 // Whether, in the given coordinate, one primitive lies entirely above the other at t = 0, and the same
 // primitive lies entirely above the other at t = 1. Then the difference of a vertex of the upper primitive
-// and one of the lower is positive at t = 0 and t = 1 and, because it is linear, at all times between. The
-// difference of any two points of the primitives is a convex combination of these differences, so the
-// primitives never meet. The answer is one truth value, or a mask if the coordinates are in lanes.
+// and a vertex of the lower primitive is positive at t = 0 and t = 1 and, because it is linear, at all times
+// between. The difference of any two points of the primitives is a convex combination of these differences,
+// so the primitives never meet. The answer is one truth value, or a mask if the coordinates are in lanes.
 template <Kind kind, class Coordinate>
 [[gnu::always_inline]] inline auto separated(const Coordinate& coordinate) {
   const auto start = extents<kind>(coordinate, 0);
@@ -46,7 +46,8 @@ template <Kind kind, class Coordinate>
   return above | below;
 }
 
-/// `separated` along the axes x, y and z. x(time, vertex, k) is coordinate k of a vertex.
+/// Whether `separated` is true for the coordinates along at least one of the axes x, y and z.
+/// x(time, vertex, k) is coordinate k of a vertex.
 template <Kind kind, class Points>
 [[gnu::always_inline]] inline auto separated_across_axis(const Points& x) {
   const auto axis = [&](std::size_t k) {
@@ -55,7 +56,8 @@ template <Kind kind, class Points>
   return axis(0) | axis(1) | axis(2);
 }
 
-/// `separated` along the diagonals x ± y, x ± z and y ± z.
+/// Whether `separated` is true for the coordinates along at least one of the diagonals x ± y, x ± z
+/// and y ± z.
 template <Kind kind, class Points>
 [[gnu::always_inline]] inline auto separated_across_diagonal(const Points& x) {
   const auto sum = [&](std::size_t k, std::size_t l) {
@@ -77,7 +79,7 @@ template <Kind kind, class Points>
 /// Along an axis, the code compares the coordinates themselves. Along a diagonal, it compares sums or
 /// differences that are rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b, and no error
 /// margin is needed. This also holds after overflow: an infinite sum is above every finite sum, and not above
-/// another infinite one.
+/// another infinite sum.
 template <Kind kind>
 bool separated_by_plane(const Query& query) {
   const auto x = coordinates(query);
@@ -85,8 +87,8 @@ bool separated_by_plane(const Query& query) {
 }
 
 /// Whether, along an axis, one primitive is more than h above the other at t = 0, and the same primitive is
-/// more than h above the other at t = 1. Then their distance is always more than h. Rounding is monotone, so
-/// fl(a - b) > h implies a - b > h.
+/// more than h above the other at t = 1. Then the distance of the primitives is always more than h. Rounding
+/// is monotone, so fl(a - b) > h implies a - b > h.
 inline bool separated_across_axis_by(double h, const Query& query) {
   const auto x = coordinates(query);
   const auto axis = [&](std::size_t k) {

@@ -28,8 +28,8 @@ void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator
   if (denominator > 0 && numerator >= 0 && numerator <= denominator) times.add(numerator / denominator);
 }
 
-/// Adds the roots of a t² + b t + c in [0, 1], in any order. If a is 0, adds the root of b t + c; if b is 0,
-/// too, adds nothing.
+/// Adds the roots of a t² + b t + c in [0, 1], in any order. If a is 0, adds the root of b t + c; if both a
+/// and b are 0, adds nothing.
 ///
 /// A computed discriminant below 0 counts as 0, since an additional candidate is harmless. With q = -(b +
 /// sign(b) sqrt(disc)), the roots are q/2a and 2c/q. Neither formula suffers from cancellation.

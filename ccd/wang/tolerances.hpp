@@ -38,16 +38,17 @@ struct Tolerances {
   T eta;      ///< η, a length: the factor of the height test (§4.4)
   T h;        ///< a time: half the width of the fixed interval of VE culling (§5)
 
-  /// The largest distance of a false positive, about 41 B ε^¼. VV accepts a computed squared distance of up
-  /// to D² + δ, which has an error of at most δ. No other test accepts a pair that is farther apart (§4.3 to
-  /// §4.5).
+  /// The largest distance that the primitives of a false positive can have, about 41 B ε^¼. VV accepts a pair
+  /// if the computed squared distance is at most D² + δ. The error of the computed squared distance is at
+  /// most δ. No other test accepts a pair that is farther apart (§4.3 to §4.5).
   [[nodiscard]] T distance_bound() const {
     using std::sqrt;
     return sqrt(D2 + 2 * delta);
   }
 };
 
-/// The paper's closed forms of the tolerances (§4.2 to §4.5). λ² is that of the edge-length test of §4.3.
+/// The paper's closed forms of the tolerances (§4.2 to §4.5). The λ² is the threshold of the edge-length test
+/// of §4.3.
 template <class T>
 Tolerances<T> paper_tolerances(T B) {
   const T e = fourth_root_of_epsilon<T>();

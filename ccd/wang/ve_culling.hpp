@@ -17,13 +17,13 @@ namespace nearmiss {
 /// computed root t represents lies between these times (`excludes_collision`).
 enum class VeCulling : std::uint8_t {
   none,      ///< VE tests always run
-  fixed,     ///< Tolerances::h: ε^½, as the paper proposes, or another value
-  per_root,  ///< a value for each root, computed from the slope of F at the root
+  fixed,     ///< h is Tolerances::h: ε^½, as the paper proposes, or another value
+  per_root,  ///< h has its own value for each root, computed from the slope of F at the root
 };
 
 /// The bound of |F̂(t) - F(t)| in units of B³ε. F̂ is the coplanarity cubic as computed from rounded relative
-/// vectors; F is that of the exact motion. The bound holds for operations with a relative error of at most ε,
-/// that is, in any rounding mode.
+/// vectors; F is the coplanarity cubic of the exact motion. The bound holds for operations with a relative
+/// error of at most ε, that is, in any rounding mode.
 ///
 /// The positions have an error of ε B, and the velocities one of 3ε B. Edge-edge: the velocity of p has an
 /// error of 4ε B, because p may be up to 2B at one end. By Theorem 4.1, a value bounded by B_f has an error

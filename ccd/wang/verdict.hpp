@@ -31,9 +31,9 @@ inline constexpr std::array<std::string_view, stage_count> stage_names{
     "none", "proximity", "ve-end", "ve-minimum",  "ve-equal", "ve-zero",
     "vv",   "filter",    "exact",  "unspecified", "unknown"};
 
-/// Why a pair was not reported.
+/// Why a subject did not report a pair: what ruled a collision out.
 enum class Rejection : std::uint8_t {
-  untold,   ///< a collision was reported, or the subject does not say
+  untold,   ///< a collision was reported, or the subject does not say why none was reported
   planes,   ///< plane culling
   apart,    ///< the relative vectors are too large for a pair that collides (§4.1)
   no_root,  ///< the cubic has no root in [0, 1]
@@ -76,8 +76,8 @@ inline constexpr std::array<std::string_view, fault_count> fault_names{
 struct Verdict {
   bool hit = false;
   Stage stage = Stage::none;
-  /// The time of impact, in [0, 1] for a hit; NaN if unknown. If the answer is invalid, the time that the
-  /// subject gave.
+  /// The time of impact: in [0, 1] if the verdict is a hit, NaN if the time is unknown. If the answer is
+  /// invalid, this is the time that the subject gave, whatever its value.
   double time = std::numeric_limits<double>::quiet_NaN();
   Fault fault = Fault::none;  ///< if not `none`, there is no answer
   Rejection rejection = Rejection::untold;

@@ -19,8 +19,8 @@ namespace nearmiss {
 
 /// The culling that a variant of `wang` uses.
 struct WangOptions {
-  bool plane_culling = true;                   ///< of pairs that a plane separates (plane_culling.hpp)
-  VeCulling ve_culling = VeCulling::per_root;  ///< of vertex-edge tests (ve_culling.hpp)
+  bool plane_culling = true;                   ///< culls pairs that a plane separates (plane_culling.hpp)
+  VeCulling ve_culling = VeCulling::per_root;  ///< how to cull vertex-edge tests (ve_culling.hpp)
 };
 
 namespace detail {

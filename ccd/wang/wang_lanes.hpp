@@ -50,7 +50,8 @@ class WangLanes {
   using Real = Lanes<n>;
   using Mask = typename Real::Mask;
 
-  /// A list of at most `most` numbers, with room for n more numbers after the last one.
+  /// A list of at most `most` numbers. Its array has room for n more numbers after the last number of the
+  /// list.
   template <class Number, std::size_t most>
   using Column = std::array<Number, most + n>;
 
@@ -165,8 +166,8 @@ class WangLanes {
     Cubic<Real> F;
     Real W, B;
   };
-  /// The Polynomial of n queries. The caller chooses the queries: take(column) returns their numbers from a
-  /// column.
+  /// The Polynomial of n queries. The caller chooses the n queries: take(column) returns the numbers of these
+  /// queries from a column.
   template <class Take>
   Polynomial polynomial(const Take& take) const {
     return {{take(columns_[0]), take(columns_[1]), take(columns_[2]), take(columns_[3])},

@@ -57,7 +57,7 @@ auto vertex_differences(const Pair<kind, T>& pair) {
 
 inline constexpr std::size_t plane_count = 9;
 
-// The components of a vector along the axes and the diagonals.
+// The components of a vector along the three axes and along the six diagonals.
 template <class T>
 std::array<T, plane_count> across_planes(const Vector3<T>& x) {
   return {x[0], x[1], x[2], x[0] + x[1], x[0] + x[2], x[1] + x[2], x[0] - x[1], x[0] - x[2], x[1] - x[2]};

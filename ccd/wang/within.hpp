@@ -52,10 +52,10 @@ struct WithinQuery {
   VertexEdge<T> ve;  ///< for two vertices, x_ji is 0
   Frame frame;
   T B = 0;
-  T R = 0;  ///< the query's separation; rounded up if T cannot represent it
+  T R = 0;  ///< the query's separation, rounded up if T cannot represent the separation
 
-  /// If `given` is set, it replaces the primitives' own B; a value that is smaller than their own B throws
-  /// Error (§5).
+  /// If `given` is set, it replaces the primitives' own bound B. Throws Error if `given` is smaller than the
+  /// primitives' own B (§5).
   explicit WithinQuery(const Query& query, const std::optional<double>& given = std::nullopt) {
     using std::ldexp;
     const auto form = [&](const Frame& each) {
@@ -114,9 +114,9 @@ Verdict wang_within(const Query& query, bool plane_culling, const std::optional<
 }
 
 /// If wang_within() reports a query, the smallest distance exceeds the separation by at most this bound, in
-/// the unit of the query's coordinates. The distance is at most sqrt(D² + 2δ) (§4.2, §4.3), so the bound is
-/// sqrt(D² + 2δ) - R = (D² + 2δ - R²) / (sqrt(D² + 2δ) + R), rounded up. The term 16ε D² exceeds the rounding
-/// errors of all squares.
+/// the unit of the query's coordinates. The smallest distance of a reported query is at most sqrt(D² + 2δ)
+/// (§4.2, §4.3), so the bound is sqrt(D² + 2δ) - R = (D² + 2δ - R²) / (sqrt(D² + 2δ) + R), rounded up. The
+/// term 16ε D² exceeds the rounding errors of all squares.
 template <class Rule = PaperTolerances, class T = double>
 double within_distance_bound(const Query& query, const std::optional<double>& given = std::nullopt,
                              const Rule& rule = {}) {

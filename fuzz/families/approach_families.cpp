@@ -94,9 +94,9 @@ struct Sides {
 };
 
 /// The distance falls below h at a time inside the step. At a time about 2^x earlier, a closest point moves
-/// from an end of a side into its interior, or from the interior to an end. If it moves into the interior, it
-/// has weight 2^x when the distance is h. If it moves to an end, the slope of the side relative to the plane
-/// z = 0 is about 2^x.
+/// from an end of a side into its interior, or from the interior to an end. If the closest point moves into
+/// the interior, the weight of the point is 2^x when the distance is h. If the closest point moves to an end,
+/// the slope of the side relative to the plane z = 0 is about 2^x.
 Query changed_features(Random& random, Kind kind, double x) {
   const double before = power_of_two(x);
   const double time = sixteenths(random, 1, 15);

@@ -65,7 +65,7 @@ Points<Real> points(const Query& query, std::size_t time) {
 
 template <class Real>
 Real largest_component(const Vec<Real>& v) {
-  using std::max;  // for intervals, the calls find CGAL's max
+  using std::max;  // if Real is an interval, the calls of max() below find CGAL's max()
   Real largest = max(v[0], -v[0]);
   for (std::size_t k = 1; k < 3; ++k) largest = max(largest, max(v[k], -v[k]));
   return largest;
@@ -77,7 +77,7 @@ Real largest_component(const Vec<Real>& v) {
 template <class Real>
 struct Lengths {
   Real longest = 0;
-  Real shortest = 0;  ///< of the edges that are not zero
+  Real shortest = 0;  ///< the length of the shortest edge that is not zero
   Real fastest = 0;
 };
 
@@ -248,8 +248,8 @@ bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
                      size.first * size.second * speed.gap);
 }
 
-/// Whether a vertex is near an edge: near an end of it, or near its line and between the two planes through
-/// its ends that are perpendicular to it.
+/// Whether a vertex is near an edge: near an end of the edge, or near the line of the edge and between the
+/// two planes through the ends of the edge that are perpendicular to the edge.
 template <class Real, class AtMost>
 bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost& at_most) {
   const Vec<Real> from_a = moment.x[pair.vertex] - moment.x[pair.from];

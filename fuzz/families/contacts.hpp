@@ -55,7 +55,7 @@ class ContactSampler {
 
   /// A vector with components in [-1, 1].
   Vector3<double> vector();
-  /// A vector of length about 1; in half of the calls, along an axis.
+  /// A vector of length about 1; in half of the calls, the vector is parallel to an axis.
   Vector3<double> direction();
   /// A power of two from 2^-bits to 1.
   double fraction(int bits) { return std::ldexp(1.0, -random_.integer(0, bits)); }
@@ -63,8 +63,8 @@ class ContactSampler {
   double speed() { return random_.one_in(3) ? 0 : fraction(12); }
   /// A velocity of about the magnitude that fraction(12) draws.
   Vector3<double> velocity();
-  /// A weight or time in [0, 1], often 0 or 1. One in eight is outside this interval, by a power of two that
-  /// may be as small as ε.
+  /// A weight or time in [0, 1], often 0 or 1. One in eight of these numbers is outside the interval, beyond
+  /// its end by a power of two that may be as small as ε.
   double weight();
   /// Draws a time, and the weights of a point that is inside the primitives, on an edge, at a vertex or
   /// slightly outside. weight() draws all three numbers.
@@ -95,13 +95,13 @@ Query with_first_moved(Query query, const Vector3<double>& by);
 /// Scales a query and its separation by a power of two, and shuffles the query. Both operations are exact.
 Query rescaled(Random& random, Query query);
 
-/// Moves one query in four by an integer vector; this is exact if coordinates are integers. Then calls
-/// `rescaled`.
+/// Moves one query in four by an integer vector; the move is exact if the coordinates are integers. Then
+/// calls `rescaled`.
 Query placed(Random& random, Query query);
 
 /// Turns or mirrors a query with an integer matrix, which multiplies all lengths by 1, 3, 5, 7 or 9, and
-/// multiplies the separation by the same number. This is exact if the coordinates are integers below 2^49,
-/// times one power of two.
+/// multiplies the separation by the same number. The result is exact if the coordinates are integers below
+/// 2^49, times one power of two.
 Query turned(Random& random, Query query);
 
 /// Shuffles the vertices of each primitive. If both primitives are edges, or both are vertices, also shuffles

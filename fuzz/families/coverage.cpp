@@ -10,7 +10,7 @@ namespace {
 /// All values of all factors, numbered one after the other.
 struct Numbering {
   std::array<std::size_t, factor_count> first{};  ///< the number of each factor's first value
-  std::vector<std::size_t> factor;                ///< the factor of each number
+  std::vector<std::size_t> factor;                ///< the factor to which the value with each number belongs
   std::vector<std::string> name;
 
   Numbering() {
@@ -53,7 +53,8 @@ std::string text_of(const Numbering& numbering, std::size_t place, int values) {
 }
 
 /// Counts the combinations that the family makes (`made`), and those of them that occur in the given queries
-/// (`seen`). Lists the others as missing.
+/// (`seen`). Lists, as missing, the combinations that the family makes and that do not occur in these
+/// queries.
 Combinations compared(const Numbering& numbering, const std::vector<bool>& seen,
                       const std::vector<bool>& made, int values) {
   Combinations result;

@@ -39,8 +39,8 @@ bool is_free(Motion motion) {
   return motion == Motion::deforming || motion == Motion::fast || motion == Motion::slow;
 }
 
-/// Whether the family makes queries of this shape and motion with these roots of F. F is τ det(w, q, r), with
-/// the names of crossed_family.cpp.
+/// Whether the family makes queries of this shape and motion with these roots of F. F is τ det(w, q, r),
+/// where τ, w, q and r are as at the top of crossed_family.cpp.
 bool has_roots(Shape shape, Motion motion, Roots roots) {
   if (roots == Roots::all) return true;
   if (motion == Motion::rest) return false;  // F is constant

@@ -55,12 +55,13 @@ std::vector<std::string> to_texts(const Levels& levels);
 
 Query make_query(Random& random, Kind kind, const Levels& levels);
 
-/// Counts combinations of the values of two factors, or of three: `made` are those that the family makes,
-/// `seen` are those of them that occur in the queries that coverage() looks at.
+/// Counts combinations of the values of two factors, or of three: `made` is the number of combinations that
+/// the family makes, `seen` the number of these combinations that occur in the queries that coverage() looks
+/// at.
 struct Combinations {
   std::uint64_t made = 0;
   std::uint64_t seen = 0;
-  std::vector<std::string> missing;  ///< made, but not seen, such as "shape=sliver when=at-1"
+  std::vector<std::string> missing;  ///< made, but not seen: for example, "shape=sliver when=at-1"
 };
 
 /// Which combinations of values occur in the queries that coverage() looks at.

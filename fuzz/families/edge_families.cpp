@@ -16,7 +16,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// The query in which x0 - x1 follows `to_vertex` and x2 - x1 follows `edge`. The path of x1 is random.
+/// The query in which the vector x0 - x1 follows the path `to_vertex`, and the vector x2 - x1 follows the
+/// path `edge`. The path of x1 itself is random.
 Query placed_beside(Random& random, Kind kind, const Path& to_vertex, const Path& edge, double size = 1) {
   const Path from = Path{random.vector(size), random.vector(size)};
   Query query{.kind = kind};
@@ -44,9 +45,10 @@ struct Motion {
 };
 
 constexpr double rounded_to = 1e-6;
-/// Motions found by random search. The paper's Algorithm 2 (vertex_edge.hpp) tests several candidate times.
-/// If h is at most 1.09 times the smallest distance (1.22 times for the first four motions), the vertex is
-/// within h of the edge only at the candidate times of case 2, the minima of pieces.
+/// Motions that a random search found. The paper's Algorithm 2 (vertex_edge.hpp) tests several candidate
+/// times. If h is at most 1.09 times the smallest distance (1.22 times for the first four motions), the
+/// vertex is within h of the edge only at the candidate times of case 2, at which a quadratic piece of the
+/// algorithm's function F_0ij has its minimum.
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},
@@ -71,8 +73,8 @@ const std::array<Motion, 5> at_minima{{
 }};
 
 /// One of the motions `at_minima`, changed slightly. The axes are permuted and reversed at random; in half of
-/// the queries, start and end are exchanged. The difference of h and the smallest distance is at most 2^x
-/// times the smallest distance.
+/// the queries, start and end are exchanged. The separation h differs from the smallest distance by at most
+/// 2^x times the smallest distance.
 Query at_minimum(Random& random, Kind kind, double x) {
   const Motion& motion = one_of(random, at_minima);
   const int turn = random.integer(0, 2);
@@ -155,7 +157,7 @@ std::vector<Family> edge_families() {
     return [most](const char* name, const char* about, auto make) {
       Family family = with_parameter(
           name, about, {"h differs from the smallest distance by up to 2^x of it", -40, most, false, make});
-      family.block_cases = 3;  // few, because the exact distance takes long to compute
+      family.block_cases = 3;  // few queries, because computing their exact distance takes long
       return family;
     };
   };

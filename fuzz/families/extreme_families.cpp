@@ -29,8 +29,8 @@ Query stiff(Random& random, Kind kind, double x) {
 }
 
 /// One of the sides q and r is shorter than the other. In half of the queries, the contact is near the
-/// triangle's corner x1 (vertex-triangle) or near an end of the long edge (edge-edge): at most about the
-/// length of the short side away.
+/// triangle's corner x1 (vertex-triangle) or near an end of the long edge (edge-edge): the distance from the
+/// contact to this corner or end is at most about the length of the short side.
 Query aspect(Random& random, Kind kind, double x) {
   const double size = power_of_ten(-x);
   ContactSampler sampler(random);
@@ -71,7 +71,8 @@ Query scale(Random& random, Kind kind, double x) {
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const auto first_vertices = static_cast<std::size_t>(split(kind));
-  const int only = random.integer(0, 5);  // the only huge axis; if 3 or more, any axis may be huge
+  // The only axis along which coordinates are huge; if 3 or more, they may be huge along any axis.
+  const int only = random.integer(0, 5);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
     const double size = huge ? 0x1p1022 : 1;

@@ -10,10 +10,11 @@ namespace nearmiss {
 
 /// The closest features of two primitives that face each other.
 enum class Closest : std::uint8_t {
-  interiors,        ///< vt: the vertex and the inside of the triangle; ee: the insides of both edges
-  vertex_and_edge,  ///< vt: the vertex and a triangle edge; ee: an end of edge 1 and the inside of edge 2
-  vertices,         ///< one vertex of each primitive
-  parallel_edges,   ///< the insides of both edges, which are parallel
+  interiors,  ///< vt: the vertex and the interior of the triangle; ee: the interiors of both edges
+  /// vt: the vertex and an edge of the triangle; ee: an end of edge 1 and the interior of edge 2.
+  vertex_and_edge,
+  vertices,        ///< one vertex of each primitive
+  parallel_edges,  ///< the interiors of both edges, which are parallel
 };
 
 /// Draws closest features that queries of this kind can have.
@@ -33,10 +34,10 @@ bool is_closest(Kind kind, Closest closest, bool is_side_q);
 /// and 0 as the weight of any other side. In half of the contacts, sides keep their length and direction.
 Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level = 1);
 
-/// The query in which the vector from the second primitive's point of contact to the first one's is (0, 0,
-/// gap) at the time of `contact`, and changes with velocity w. At that time, the distance of the primitives
-/// is `gap`; at any time t, it is at least gap + (t - time) w[2]. If the numbers have few bits, all of this
-/// is exact.
+/// The query in which the vector from the second primitive's point of contact to the first primitive's point
+/// of contact is (0, 0, gap) at the time of `contact`, and changes with velocity w. At that time, the
+/// distance of the primitives is `gap`; at any time t, it is at least gap + (t - time) w[2]. If the numbers
+/// have few bits, the coordinates of the query are exact, and so are these distances.
 Query facing(Kind kind, const Contact& contact, const Vector3<double>& w, double gap);
 
 }  // namespace nearmiss

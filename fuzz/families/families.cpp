@@ -76,7 +76,9 @@ Family at_value(const Family& family, double value) {
     throw Error(fmt::format("found the family '{}', expected {} from {} to {} behind the @", excerpt(name),
                             parameter.whole ? "a whole number" : "a number", parameter.lo, parameter.hi));
   const auto make = [parameter, value](Random& random, Kind kind) {
-    draw(random, parameter);  // so that later draws are as in the family without a fixed value
+    // The family without a fixed value draws the value here. This draw keeps all later random numbers the
+    // same as in that family.
+    draw(random, parameter);
     return parameter.make(random, kind, value);
   };
   Family fixed = family;
@@ -171,7 +173,8 @@ Family without_other_vertices(Family family) {
   return with_last_step(std::move(family), [](Random& /*random*/, Query& query) { repeat_vertices(query); });
 }
 
-/// The family v-NAME for the family NAME: its queries are vv or ve.
+/// The family v-NAME that is made from the family NAME. The queries of v-NAME are vertex-vertex (vv) or
+/// vertex-edge (ve).
 Family of_vertices(Family family) {
   family.name = std::string(vertices_prefix) + family.name;
   family.about = fmt::format("{}: two vertices, or a vertex and an edge", family.about);

@@ -21,7 +21,7 @@ struct Parameter {
   double lo, hi;
   bool whole = false;  ///< whether x must be a whole number
   std::function<Query(Random&, Kind, double)> make;
-  std::string factor{};  ///< if set, reports count the queries of each whole x, as FACTOR=2^x
+  std::string factor{};  ///< if set, reports count the queries with each whole x, under the name FACTOR=2^x
 };
 
 struct Family {
@@ -32,7 +32,7 @@ struct Family {
   std::optional<Parameter> parameter{};         ///< each query draws its own x, uniformly
   std::uint64_t block_cases = 25;               ///< queries in the first round of a campaign
   bool timed = true;                            ///< whether trials time the subjects
-  bool compare_all = false;                     ///< whether all methods of the oracle decide every query
+  bool compare_all = false;                     ///< whether every method of the oracle decides each query
   bool has_separation = false;                  ///< whether the queries have a separation h > 0
   std::array<Kind, 2> kinds = kinds_of_meshes;  ///< the kind of queries with even indices, then with odd ones
   std::optional<Kind> only{};                   ///< if set, campaigns ask only the queries of this kind
@@ -46,9 +46,9 @@ Family with_parameter(std::string name, std::string about, Parameter parameter);
 
 Family with_collisions(Family family);
 
-/// The family NAME@VALUE. Each query is the one that NAME makes when it draws VALUE, so queries with the same
-/// index and different VALUEs differ only by the parameter. Throws Error if the family has no parameter, or
-/// if its parameter cannot have this value.
+/// The family NAME@VALUE. Each of its queries is the query that the family NAME makes if NAME draws VALUE as
+/// its parameter. So queries with the same index and different VALUEs differ only by the parameter. Throws
+/// Error if the family has no parameter, or if its parameter cannot have this value.
 Family at_value(const Family& family, double value);
 
 /// The families NAME@VALUE for `steps` evenly spaced values of the family's parameter, from the lowest to the
@@ -56,10 +56,10 @@ Family at_value(const Family& family, double value);
 /// if the family has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
-/// If the separation is given as this text instead of a number, each query draws its own separation.
+/// The text that a user gives in place of a number so that each query draws its own separation.
 inline constexpr std::string_view drawn_separation = "drawn";
 
-/// Returns the separation of a query. Takes random numbers only if separations are drawn.
+/// A function that returns the separation of a query. It takes random numbers only if separations are drawn.
 using ChooseSeparation = std::function<double(Random&, const Query&)>;
 
 /// Parses the separation of all queries: a positive number, or `drawn`. A drawn separation is between 1e-6
@@ -67,21 +67,21 @@ using ChooseSeparation = std::function<double(Random&, const Query&)>;
 /// with `where` for any other text.
 ChooseSeparation parse_family_separation(std::string_view text, std::string_view where);
 
-/// The family NAME~SEPARATION: the queries of NAME with this separation. If it is `drawn`, each query draws
-/// its separation after everything else. Throws Error if parse_family_separation() refuses the text, or if
-/// the family has separations of its own.
+/// The family NAME~SEPARATION: the queries of NAME with this separation. If the separation is `drawn`, each
+/// query draws its separation after all its other numbers. Throws Error if parse_family_separation() refuses
+/// the text, or if the family has separations of its own.
 Family with_separation(const Family& family, std::string_view separation);
 
-/// The families of vertex-triangle and edge-edge queries that ask for contact, in the order in which lists
-/// and campaigns show them. The families of extreme queries come last.
+/// The families of vertex-triangle and edge-edge queries that ask whether the primitives touch, in the order
+/// in which lists and campaigns show them. The families of extreme queries come last.
 std::span<const Family> families();
 
 /// The families of vertex-triangle and edge-edge queries that have separations of their own.
 std::span<const Family> separation_families();
 
 /// The families of vertex-vertex and vertex-edge queries. Most of these families take the queries of another
-/// family, and leave out the last vertices: "v-uniform" takes its queries from "uniform". Two vertices, or a
-/// vertex and an edge, touch only by coincidence, so campaigns give the queries separations.
+/// family, and leave out the last vertices of each query: "v-uniform" takes its queries from "uniform". Two
+/// vertices, or a vertex and an edge, touch only by coincidence, so campaigns give the queries separations.
 std::span<const Family> vertex_families();
 
 /// The family in the form that campaigns use by default. A family of vertex-vertex and vertex-edge queries
@@ -103,7 +103,8 @@ std::span<const Family> all_families();
 Family find_family(std::string_view name, std::span<const Family> known = all_families());
 
 /// The kind of a family's query `index`. Queries with even indices are vertex-triangle (in a family of
-/// vertices, vertex-vertex), those with odd indices edge-edge (in a family of vertices, vertex-edge).
+/// vertices, vertex-vertex), and queries with odd indices are edge-edge (in a family of vertices,
+/// vertex-edge).
 inline Kind kind_of(const Family& family, std::uint64_t index) { return family.kinds[index % 2]; }
 
 bool has_kind(const Family& family, Kind kind);

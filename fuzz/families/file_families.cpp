@@ -17,8 +17,8 @@ namespace {
 using Vector = Vector3<double>;
 
 /// Primitives of the given size and speed, in general position around the origin. They are aimed at each
-/// other, but the place where their planes or lines meet may be outside the primitives, and the time outside
-/// the step.
+/// other, but the place where their planes or lines meet may be outside the primitives, and the time at which
+/// they meet may be outside the step.
 Query everyday(Random& random, Kind kind, double size, double speed) {
   const auto path = [&](double length) {
     const Vector start = random.vector(length);
@@ -44,7 +44,8 @@ Query floats(Random& random, Kind kind) {
 }
 
 /// Decimals with x digits behind the point, rounded to the nearest doubles. In half of the queries, the
-/// primitives touch exactly before the decimals are rounded; after that, they touch or are a few ulps apart.
+/// primitives touch exactly before the decimals are rounded; after the rounding, the primitives touch or are
+/// a few ulps apart.
 Query decimals(Random& random, Kind kind, double x) {
   const int unit = static_cast<int>(std::lround(std::pow(10.0, x)));
   Query query{.kind = kind};

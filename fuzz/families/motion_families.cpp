@@ -102,8 +102,8 @@ Query first_moment(Random& random, Kind kind, double x) {
 // --- no motion and no size ------------------------------------------------------------------------------
 
 /// All vertices of a primitive are one point at rest. Both primitives are the same point, or one coordinate
-/// of the second differs by up to four ulps. A CCD's error bound is 0 here if it is proportional to sizes or
-/// motions.
+/// of the second primitive differs from that of the first by up to four ulps. A CCD's error bound is 0 here
+/// if it is proportional to sizes or motions.
 Query one_point(Random& random, Kind kind) {
   const double size = power_of_ten(random.uniform(-3, 3));
   const Vector point = random.vector(size);

@@ -45,7 +45,7 @@ void set_position(Query& query, int point, const Vector& x) {
     query.set_end(point - 4, x);
 }
 
-/// Which positions of a vertex are changed: at t = 0, at t = 1, or both.
+/// Which positions of a vertex a mutation changes: the position at t = 0, the position at t = 1, or both.
 struct Moments {
   bool start, end;
 };
@@ -134,7 +134,8 @@ Query planted(Random& random, const Query& query) {
   return joined_somehow(random, query, random_place(random, query.kind));
 }
 
-/// Moves a position so that the primitives touch at the place at which they nearly touch.
+/// Moves a position of a vertex so that the primitives touch at the place where, before this move, they
+/// nearly touch.
 Query restored(Random& random, const Query& query) {
   return joined_somehow(random, query, own_place(random, query));
 }

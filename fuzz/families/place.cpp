@@ -79,7 +79,7 @@ Query joined(const Query& query, const Place& place, int point) {
   const auto share = shares(query.kind, place);
   const auto p = static_cast<std::size_t>(point);
   Query result = query;
-  for (int pass = 0; pass < 2; ++pass)  // the second pass corrects the rounding of the first
+  for (int pass = 0; pass < 2; ++pass)  // the second pass corrects the rounding errors of the first pass
     for (std::size_t k = 0; k < 3; ++k) {
       DoubleWord gap;
       for (std::size_t i = 0; i < 8; ++i) gap = gap + share[i] * DoubleWord(result.x[3 * i + k]);

@@ -31,8 +31,9 @@ Place random_place(Random& random, Kind kind);
 
 /// The place at which the primitives touch or nearly touch, in double arithmetic. The time is a root of F,
 /// the coplanarity cubic, or random if F has no root; the weights are those of the closest points at that
-/// time. Weights outside [0, 1] are moved to the border, or slightly inside. If the primitives have no area
-/// or are too far apart, the place is random.
+/// time. If these weights give a point outside its primitive, they are replaced by the weights of a point on
+/// the border of the primitive, or slightly inside it. If the primitives have no area or are too far apart,
+/// the place is random.
 Place own_place(Random& random, const Query& query);
 
 }  // namespace nearmiss

@@ -133,7 +133,7 @@ Query planar(Random& random, Kind kind) {
 
 // --- coincidences -----------------------------------------------------------------------------------
 
-/// Small integers, with coincident points and points at rest.
+/// All coordinates are small integers; some points coincide, and some points are at rest.
 Query degenerate(Random& random, Kind kind) {
   const int size = random.integer(1, 3);
   Query query{.kind = kind};

@@ -40,8 +40,8 @@ Draft touching(Random& random, Kind kind) {
   return {meet(kind, contact, w), at_origin};
 }
 
-/// Exact contact of small integers, at the origin and inside the step. Speeds are as large as sizes, so the
-/// primitives are apart at the other roots of F.
+/// Exact contact of small integers, at the origin and inside the step. Speeds are as large as the sizes of
+/// the primitives, so the primitives are apart at the other roots of F.
 Draft small_touching(Random& random, Kind kind) {
   const auto path = [&] {
     const Vector start = random.integer_vector(2);

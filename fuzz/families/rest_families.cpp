@@ -11,7 +11,8 @@ namespace {
 using Vector = Vector3<double>;
 
 /// Primitives of about size 1, and a point on each primitive, often on its border. The vector `gap` goes from
-/// the second primitive's point to the first one's; half of these vectors are along q × r.
+/// the second primitive's point to the first primitive's point. In half of the queries, `gap` is parallel to
+/// q × r.
 struct Draft {
   Contact contact;
   Vector gap;

@@ -24,9 +24,9 @@ struct Factor {
   static Factor constant() { return {1, 1}; }
 };
 
-/// The weights α / whole and β / whole, as in Contact, of a point that may be outside the primitives. If
-/// `whole` is 0, no such point exists. Then s α q = -β r with s = alpha_sign(kind) at the root of the factor,
-/// so the sides are parallel at that time.
+/// A point that may be outside the primitives, given by its weights α / whole and β / whole (α and β as in
+/// Contact). If `whole` is 0, no such point exists. Then s α q = -β r with s = alpha_sign(kind) at the root
+/// of the factor, so the sides are parallel at that time.
 struct Weights {
   int whole, alpha, beta;
 
@@ -103,8 +103,8 @@ Weights border(Random& random, Kind kind) {
   return !has_triangle(kind) && random.one_in(2) ? Weights{whole, 0, along} : Weights{whole, along, 0};
 }
 
-/// Draws roots until they are independent, so that F is not identically zero, and makes the query. Its vertex
-/// x1 (vertex-triangle) or x2 (edge-edge) follows `base`.
+/// Draws roots until they are independent, so that F is not identically zero. Then makes the query with these
+/// roots, whose vertex x1 (vertex-triangle) or x2 (edge-edge) follows the path `base`.
 template <class Draw>
 Query with_drawn_roots(Random& random, Kind kind, const Path& base, const Draw& draw) {
   std::array<PlannedRoot, 3> roots = draw();
@@ -131,7 +131,8 @@ Query close_roots(Random& random, Kind kind, double x) {
     time += gap * random.integer(1, 3);
   }
   if (!has_third) factors[2] = Factor::constant();
-  const int inside_at = random.integer(1, has_third ? 7 : 3);  // one bit for each root; at least one is set
+  // One bit for each root: set if the contact at this root is inside the primitives. At least one bit is set.
+  const int inside_at = random.integer(1, has_third ? 7 : 3);
   const Path base{random.integer_vector(64), random.integer_vector(64)};
   return with_drawn_roots(random, kind, base, [&] {
     std::array<PlannedRoot, 3> roots{};
@@ -144,8 +145,9 @@ Query close_roots(Random& random, Kind kind, double x) {
   });
 }
 
-/// The first contact is on the border in two of three queries, and inside in the others. The sides are
-/// parallel at a time 2^x before or after the first contact. The second contact is inside.
+/// In two of three queries, the first contact is on the border of a primitive; in the others, it is in the
+/// interiors of the primitives. The sides are parallel at a time 2^x before or after the first contact. The
+/// second contact is in the interiors.
 Query border_first(Random& random, Kind kind, double x) {
   const double first = sixteenths(random, 1, 12);
   const double second = first + sixteenths(random, 1, 3);
@@ -200,7 +202,7 @@ Query return_later(Random& random, Kind kind, double x) {
 /// times near the contact; if it is moved the opposite way, they never meet.
 struct Graze {
   Contact contact;
-  Vector w;  ///< velocity of the first point of contact relative to the second
+  Vector w;  ///< velocity of the first primitive's point of contact relative to the second primitive's
   Vector inward;
 };
 

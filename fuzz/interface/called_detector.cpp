@@ -64,7 +64,8 @@ void CalledDetector::decide(std::span<const Query> queries, std::span<Verdict> v
         if (n == 1)
           answers[i] = thrown;
         else
-          decide(some.subspan(i, 1), answers.subspan(i, 1));  // one by one, to find the queries that throw
+          // Asks about the queries one by one, to find those on which the detector throws.
+          decide(some.subspan(i, 1), answers.subspan(i, 1));
       }
     }
   }

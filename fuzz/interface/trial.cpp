@@ -162,7 +162,7 @@ void shrink_first(Campaign& campaign, const Subjects& subjects, const Stop& stop
   }
 }
 
-/// Asks the detector, and simplifies some of the queries on which it fails.
+/// Asks the detector about the queries, and simplifies some of the queries on which the detector fails.
 Campaign campaign_of(const CampaignPlan& plan, const Subjects& subjects, double seconds) {
   Stop stop = Stop::never();
   if (seconds > 0) stop.limit(std::chrono::duration<double>(seconds));
@@ -202,8 +202,8 @@ std::unique_ptr<Result> hold(const nearmiss_subject& detector, void* state,
   return result;
 }
 
-/// Does the work of a C function. Returns whether the work succeeded; after an exception, writes the
-/// exception's text to `message`.
+/// Does the work of a C function. Returns whether the work succeeded. If the work throws an exception, writes
+/// the exception's text to `message`.
 template <class Work>
 bool told(char* message, std::size_t size, const Work& work) {
   const PlainArithmetic guard;

@@ -50,20 +50,23 @@ namespace nearmiss {
 
 using plugin::Question;
 
-/// A value of TrialOptions::time_sort: a function that returns optional gives estimates, others no times.
+/// A value of TrialOptions::time_sort: the form of the function says what its times mean. A function that
+/// returns std::optional gives estimates of the time of a collision; functions of the other forms give no
+/// times.
 inline constexpr int of_the_form = -1;
 
 /// The queries of a trial, the length of the trial, and the promises of the CCD.
 struct TrialOptions {
-  std::string name = "my_ccd";   ///< the name of the CCD in the text, if it is a function
-  std::string families = "all";  ///< names with ',' between them (nearmiss fuzz --help)
+  std::string name = "my_ccd";   ///< if the CCD is a function, its name in the report
+  std::string families = "all";  ///< the names of families, with ',' between them (nearmiss fuzz --help)
   std::string separation = {};   ///< h of each query: a positive number, or "drawn"; "": as in trial.h
-  int kinds = 0;                 ///< sum of NEARMISS_VERTEX_TRIANGLE and so on; 0: all that the CCD decides
+  /// The kinds of queries: a sum of NEARMISS_VERTEX_TRIANGLE and so on; 0: all kinds that the CCD decides.
+  int kinds = 0;
   std::uint64_t seed = 1;        ///< the seed of the random queries
   std::uint64_t cases = 20'000;  ///< number of queries; 0: until the time is over
-  std::chrono::duration<double> time{};  ///< time for the queries (0: no limit); simplification gets one
-                                         ///< second more
-  int threads = 1;                       ///< how many threads call the CCD at once
+  /// The time for asking the queries (0: no limit). The simplification of findings gets one second more.
+  std::chrono::duration<double> time{};
+  int threads = 1;               ///< how many threads call the CCD at once
   int time_sort = of_the_form;   ///< what the times of a function mean: NEARMISS_TIME_LOWER_BOUND and so on
   nearmiss_contract contract{};  ///< the contract of a function; a detector states its own contract
 };
@@ -73,7 +76,7 @@ class TrialReport {
  public:
   explicit TrialReport(nearmiss_trial_result* result) : result_(result, nearmiss_free_trial) {}
 
-  /// Whether the CCD was asked, and never failed.
+  /// Whether the CCD was asked at least one query, and failed on none.
   [[nodiscard]] bool clean() const { return result_->is_clean != 0; }
   [[nodiscard]] const nearmiss_trial_counts& counts() const { return result_->all; }
   /// Counters of the answers to queries of a kind.

@@ -66,7 +66,7 @@ std::string expectation(const Finding& finding, const std::string& arguments) {
   }
 }
 
-/// The finding as code that can be pasted into a test.
+/// The finding as C++ code that a user can paste into a test.
 std::string example(const TrialSetting& setting, const Finding& finding) {
   const Query& query = finding.shrunk;
   constexpr std::string_view indent = "      ";

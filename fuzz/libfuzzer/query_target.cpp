@@ -60,8 +60,8 @@ void show(Signal signal, Kind kind, std::size_t value) {
 
 void show_factor(Signal signal, Kind kind, double factor) {
   if (std::isnan(factor)) return;
-  // The exponent -log2(factor) is clamped to the range from 2^-10 to 2^8. Half the exponent gives a value
-  // that is lower by four.
+  // The exponent -log2(factor) is clamped to the range from 2^-10 to 2^8. If the exponent is half as large,
+  // the value that is shown is lower by four.
   const double exponent = std::clamp(-std::log2(factor), 0x1p-10, 0x1p8);
   show(signal, kind, static_cast<std::size_t>(4 * (std::log2(exponent) + 10)));
 }

@@ -174,8 +174,8 @@ Campaign campaign() {
   return campaign;
 }
 
-/// The SQL statements, one per line, that make the store of a campaign, with 0 for each checksum. Writes this
-/// store to `file`, and removes it again.
+/// The SQL statements, one per line, that make the store of a campaign; in place of each checksum, they have
+/// 0. To get the statements, this function writes the store to `file`, and removes the file at the end.
 std::string statements_of(const Campaign& campaign, const fs::path& file) {
   fs::remove(file);
   write_campaign(campaign, file);
@@ -216,7 +216,9 @@ void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
     write("read_store", name + ".sql", statements_of(each, folder / "store.db"));
   for (const Case& each : cases_of(separation_families()))
     for (const char* target : {"false_negative", "late"}) write(target, each.name, bytes(each.query));
-  constexpr std::size_t one_in_with_meshes = 10;  // few meshes, since mesh files differ little
+  // One case in this many also becomes mesh files. A few mesh files are enough, since they differ little from
+  // each other.
+  constexpr std::size_t one_in_with_meshes = 10;
   for (std::size_t number = 0; const Case& each : make_cases(cases)) {
     for (const char* target : {"false_negative", "late", "refuted_bound", "oracle_disagreement"})
       write(target, each.name, bytes(each.query));

@@ -14,7 +14,8 @@ struct PromiseTarget {
   Finding::What finds;
 };
 
-/// One target for each promise of the subject: no misses, times that are lower bounds, a distance bound.
+/// One target for each promise of the subject. A subject may promise that it misses no collision, that its
+/// times are lower bounds of the time of impact, and that its false positives stay within a distance bound.
 inline std::vector<PromiseTarget> targets_for(const Subject& subject) {
   std::vector<PromiseTarget> targets{{"false_negative", Finding::What::false_negative}};
   if (is_lower_bound(subject.time_sort())) targets.push_back({"late", Finding::What::late});

@@ -1,6 +1,6 @@
-// This file is compiled without coverage. With coverage, the compiler itself would declare the two names
-// below, in conflict with their declarations here. If no file of the program has coverage, the names are
-// undefined, and their addresses are null.
+// This file is compiled without coverage. If this file were compiled with coverage, the compiler itself would
+// declare the two names below, in conflict with their declarations here. If no file of the program has
+// coverage, the names are undefined, and their addresses are null.
 #include "fuzz/libfuzzer/untraced.hpp"
 
 #include <algorithm>

@@ -13,8 +13,8 @@ namespace nearmiss {
 /// string.
 std::string mesh_ending(const std::filesystem::path& file);
 
-/// Reads a mesh file; its ending, in upper or lower case, gives the format. Throws Error as the reader of the
-/// format does, and if the file cannot be read, has more than 1 GiB, or has an unknown ending.
+/// Reads a mesh file; its ending, in upper or lower case, gives the format. Throws Error if the reader of the
+/// format throws Error, and also if the file cannot be read, has more than 1 GiB, or has an unknown ending.
 ///
 /// In all formats, a byte order mark before text is skipped, and polygons become fans of triangles. A mesh is
 /// not repaired. A CCD must cope with duplicate faces, faces that have a vertex twice, and points in no

@@ -36,8 +36,8 @@ class Lines {
   /// The text after this line.
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
-  /// The number of this line in the text, from 1. If this line continues in the next lines of the text, the
-  /// number of its first part.
+  /// The number of this line in the text, counted from 1. If this line continues in the next lines of the
+  /// text, this is the number of the first of these lines.
   [[nodiscard]] long number() const { return number_; }
 
   /// "NAME:LINE", for messages.

@@ -51,7 +51,8 @@ struct MovingMesh {
   double separation = 0;  ///< the separation h in the queries of all pairs
 };
 
-/// Makes a moving mesh; `mesh` is the mesh at the start, `end` has the points at the end.
+/// Makes a moving mesh. `mesh` is the mesh at the start of the step, and `end` has the positions of its
+/// points at the end of the step.
 MovingMesh make_moving_mesh(Mesh mesh, std::vector<Vector3<double>> end);
 
 }  // namespace nearmiss

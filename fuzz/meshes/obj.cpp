@@ -16,7 +16,8 @@ namespace {
 struct FaceOrPolyline {
   bool is_face;
   long line;
-  std::size_t begin, end;  ///< range of the primitive's vertices in the common list
+  /// The range of this primitive's vertices in the list of the vertices of all primitives.
+  std::size_t begin, end;
 };
 
 std::string_view name_of(bool is_face) { return is_face ? "face" : "polyline"; }

@@ -26,12 +26,14 @@ int parse_count(std::string_view word, int largest, std::string_view what, const
   return *count;
 }
 
-/// The words after the keyword OFF; if its line has no more words, the words of the next line.
+/// The words that follow the keyword OFF on its line. If the line of the keyword has no more words, returns
+/// the words of the next line.
 Words after_keyword(Lines& lines) {
   const bool here = lines.next();
   const std::string_view keyword = here ? lines.words()[0] : std::string_view();
   std::string_view kind = keyword;
-  for (const std::string_view extra : {"ST", "C", "N"})  // each stands for further data of a vertex
+  // Each of these prefixes of OFF announces further data of each vertex.
+  for (const std::string_view extra : {"ST", "C", "N"})
     if (kind.starts_with(extra)) kind.remove_prefix(extra.size());
   if (kind != "OFF") throw lines.error(shown(keyword), "OFF, or with ST, C or N before it");
   if (lines.words().size() > 1) return Words(lines.words()).subspan(1);

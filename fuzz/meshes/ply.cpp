@@ -20,11 +20,12 @@ namespace {
 
 // --- the header, which lists the numbers in the file and their order --------------------------------------
 
-/// A type of numbers. A double can represent each number of this type.
+/// A type of the numbers in a PLY file. A double can represent each number of this type.
 struct NumberType {
   std::string_view name, other_name;
   std::size_t bytes;
-  long smallest, largest;  ///< range of an integer type; both 0 for a floating-point type
+  /// The smallest and the largest number of an integer type; both are 0 for a floating-point type.
+  long smallest, largest;
 
   [[nodiscard]] bool is_integer() const { return smallest != largest; }
 };

@@ -85,7 +85,8 @@ Mesh parse_text(std::string_view text, std::string_view name) {
 // --- bytes ------------------------------------------------------------------------------------------------
 
 constexpr std::size_t header_bytes = 80;
-constexpr std::size_t facet_bytes = 50;  ///< normal and three vertices of three floats each, and two bytes
+/// The normal and three vertices, each of three floats, and two further bytes.
+constexpr std::size_t facet_bytes = 50;
 
 /// The size that a binary file has according to its header.
 std::size_t promised_size(std::string_view bytes) {

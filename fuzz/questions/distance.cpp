@@ -42,9 +42,9 @@ double quotient(double error, double length) {
   return length > 0 ? error / length : std::numeric_limits<double>::infinity();
 }
 
-/// Whether the points with these weights are farther apart than `most`, decided exactly. Coordinates are
-/// taken relative to x0. Otherwise, weights whose sum is 1 - 2^-53 would move a point that is far from the
-/// origin.
+/// Whether the points with these weights are farther apart than `most`, decided exactly. Computes with
+/// coordinates relative to x0. With absolute coordinates, weights whose sum is 1 - 2^-53 would move a point
+/// that is far from the origin.
 bool are_farther(const Query& query, std::span<const double> weights, double most) {
   using exact::Number;
   Number squared(0);

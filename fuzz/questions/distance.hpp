@@ -31,12 +31,13 @@ struct DistanceError {
   /// advancement is still safe with such errors, because it keeps a part of the distance as a margin.
   static constexpr double part_of_distance = 0.01, part_of_size = 1e-4;
 
-  Enclosure exact;   ///< contains d; its relative width is below 2^-44, or as small as doubles allow
-  double size = 0;   ///< the largest side of the box around both primitives
-  double over = 0;   ///< answer - d, rounded up; 0 if the answer is not larger
-  double under = 0;  ///< d - answer, rounded up; 0 if the answer is not smaller
-  bool over_reported = false;   ///< wrong, and larger than d: unsafe
-  bool under_reported = false;  ///< wrong, and smaller than d
+  /// An interval that contains d; its relative width is below 2^-44, or as small as doubles allow.
+  Enclosure exact;
+  double size = 0;              ///< the largest side of the box around both primitives
+  double over = 0;              ///< answer - d, rounded up; 0 if the answer is not larger
+  double under = 0;             ///< d - answer, rounded up; 0 if the answer is not smaller
+  bool over_reported = false;   ///< the answer is wrong, and larger than d, which is unsafe
+  bool under_reported = false;  ///< the answer is wrong, and smaller than d
   /// The weights do not add up to 1, are negative, or give points that are too far apart.
   bool wrong_weights = false;
 
@@ -63,15 +64,15 @@ bool is_over_reported(const Query& query, double distance);
 /// The template argument of QuestionTrial for the question how far apart two primitives at rest are.
 struct DistanceQuestion {
   struct Judged {
-    Query query;  ///< at rest, as the subject rounds it
+    Query query;  ///< the query at rest, rounded as the subject rounds it
     DistanceAnswer answer;
-    DistanceError error = {};  ///< set if there is no fault
+    DistanceError error = {};  ///< the error of the answer; set if the subject has no fault
 
     /// "over-reported", "wrong-weights" or "fault"; nothing if the subject does not fail.
     [[nodiscard]] std::optional<std::string_view> failure() const;
     [[nodiscard]] bool is_unsafe() const { return error.over_reported; }
     [[nodiscard]] bool is_counted_by_class() const { return failure().has_value() || error.under_reported; }
-    /// The failure, if there is one; otherwise, "under-reported" or "right".
+    /// The failure, if the subject fails; otherwise, "under-reported" or "right".
     [[nodiscard]] std::string_view word() const;
     [[nodiscard]] std::string answer_text() const;
     [[nodiscard]] std::string text() const;

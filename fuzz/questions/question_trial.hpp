@@ -39,10 +39,10 @@ struct QuestionFinding {
   std::string signature;  ///< the way to fail, such as "ee edge-edge"
   QueryClass query_class{};
   std::string provenance;        ///< "family:seed:index" of the query before shrinking
-  Query query;                   ///< shrunk, and as the subject rounds it
+  Query query;                   ///< the query after shrinking, rounded as the subject rounds it
   std::string answer;            ///< the numbers that the subject gave, exactly
-  std::string text;              ///< what is wrong, in words
-  std::string certificate = {};  ///< proves the failure; "" for a fault or wrong weights
+  std::string text;              ///< what is wrong with the subject's answer, in words
+  std::string certificate = {};  ///< a text that proves the failure; "" for a fault or wrong weights
 };
 
 /// The results of a trial. `Question` is DistanceQuestion or StepQuestion: it defines what is asked, and how
@@ -53,14 +53,15 @@ struct QuestionResults {
   /// Answers by the value of a factor (a property that a family varies, such as the angle). In this table,
   /// every answer counts as a collision, and an unsafe answer as a missed collision.
   FactorTable factors;
-  std::vector<QuestionFinding> findings;  ///< without repetitions (see take()), ordinary ones first
+  /// The findings without repetitions (see take()); findings of ordinary queries come first.
+  std::vector<QuestionFinding> findings;
 
   void merge(QuestionResults&& other) {
     for (const auto& [key, each] : other.counts) counts[key].merge(each);
     for (const auto& [key, each] : other.factors) factors[key].merge(each);
     std::ranges::move(other.findings, std::back_inserter(findings));
   }
-  /// Whether a subject fails, or nothing was asked.
+  /// Whether a subject fails on a query, or no query was asked at all.
   [[nodiscard]] bool has_failed() const {
     return counts.empty() ||
            std::ranges::any_of(counts, [](const auto& each) { return each.second.failures() > 0; });
@@ -179,7 +180,7 @@ class QuestionTrial {
         for (const auto& subject : subjects_)
           if (can_ask(*work.source, *subject, kind)) count(*subject, query, index, factors, work);
       }
-    } catch (const Stopped&) {  // the answers that came before the stop still count
+    } catch (const Stopped&) {  // the answers that the subjects gave before the stop still count
     }
   }
 
@@ -281,8 +282,8 @@ std::vector<Family> search_families(std::string name, std::string about,
 /// The families among which a user can choose: the families of campaigns. If `at_rest` is true, the families
 /// at rest come first.
 std::vector<Family> families_of_questions(bool at_rest);
-/// The families that are asked by default: families_of_questions() without the extreme families, in which
-/// even careful functions overflow.
+/// The families whose queries a trial asks by default: families_of_questions() without the extreme families,
+/// in which even careful functions overflow.
 std::vector<Family> usual_families_of_questions(bool at_rest);
 
 }  // namespace nearmiss

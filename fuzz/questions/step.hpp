@@ -1,5 +1,5 @@
-// The question which part of a step is safe. Subjects that filter steps answer this question, and
-// StepQuestion judges their answers.
+// The second question of question_trial.hpp: which part of a step is safe? Subjects that filter steps answer
+// this question, and StepQuestion judges their answers.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +24,9 @@ namespace nearmiss {
 /// are apart at t = 0 are asked about.
 struct StepQuestion {
   struct Judged {
-    Query query;  ///< without a separation, as the subject rounds it
+    Query query;  ///< the query without a separation, rounded as the subject rounds it
     StepAnswer answer;
-    // The following members are set if there is no fault.
+    // The following members are set if the subject has no fault on the query.
     Query step = {};  ///< the filtered step; the clearance is its separation
     /// Whether, in the filtered step, the primitives come nearer than the clearance, or touch if the
     /// clearance is 0.
@@ -35,14 +35,16 @@ struct StepQuestion {
     /// original step that the filtered step covers, divided by the earliest time of contact, or by 1 if there
     /// is no contact.
     double kept = 0;
-    bool cuts_free = false;  ///< the filter changes the original step, although that step has no contact
-    bool objects = false;    ///< the subject would change the filtered step again
+    /// Whether the filter changes the original step, although the primitives do not touch in the original
+    /// step.
+    bool cuts_free = false;
+    bool objects = false;  ///< whether the filter would change the filtered step again
 
     /// "unsafe" or "fault"; nothing if the subject does not fail.
     [[nodiscard]] std::optional<std::string_view> failure() const;
     [[nodiscard]] bool is_unsafe() const { return touches; }
     [[nodiscard]] bool is_counted_by_class() const { return failure().has_value(); }
-    /// The failure, or "right".
+    /// The failure; "right" if the subject does not fail.
     [[nodiscard]] std::string_view word() const { return failure().value_or("right"); }
     [[nodiscard]] std::string answer_text() const;
     [[nodiscard]] std::string text() const;
@@ -51,7 +53,8 @@ struct StepQuestion {
   };
 
   struct Counts {
-    std::uint64_t queries = 0;           ///< steps asked about, within the subject's contract
+    /// The number of steps about which the subject was asked, within its contract.
+    std::uint64_t queries = 0;
     QueryClassCounts faults_by_class{};  ///< steps without an answer
     QueryClassCounts unsafe_by_class{};  ///< unsafe filtered steps
     std::uint64_t cut_free = 0;          ///< steps with Judged::cuts_free

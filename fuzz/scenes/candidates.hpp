@@ -23,7 +23,7 @@ struct Candidate {
   auto operator<=>(const Candidate&) const = default;
 };
 
-/// A pair that a subject reports.
+/// A pair that a subject reports as a collision.
 struct ReportedPair {
   Candidate pair;
   double time;  ///< the time of impact, in [0, 1]; NaN if the subject gives none
@@ -31,10 +31,10 @@ struct ReportedPair {
 
 Query make_query(const MovingMesh& mesh, const Candidate& candidate);
 
-/// Takes a pair of primitives without a common vertex.
+/// A function that takes a pair of primitives without a common vertex.
 using CandidateSink = std::function<void(const Candidate&)>;
 
-/// Returns whether the work must end early.
+/// A function that returns whether the work must end early.
 using IsOver = std::function<bool()>;
 
 inline const IsOver never_over = [] { return false; };

@@ -30,7 +30,7 @@ std::pair<Vector, Vector> bounds(const MovingMesh& mesh) {
   return {lo, hi};
 }
 
-/// The grid of cubic cells that covers the whole range of a mesh's coordinates.
+/// The grid of cubic cells that covers the bounding box of a whole mesh.
 class Grid {
  public:
   explicit Grid(const MovingMesh& mesh) {

@@ -77,7 +77,8 @@ class PrimitiveBoxes {
 
  private:
   const CellBox* of_vertices_;
-  const int* vertices_ = nullptr;  ///< vertices of all primitives, one primitive after the other
+  /// The numbers of the vertices of all primitives, one primitive after the other.
+  const int* vertices_ = nullptr;
   std::size_t count_, corners_ = 1;
 };
 

@@ -32,7 +32,7 @@ class SpatialOrder {
   void sort(Items all) const {
     constexpr std::size_t of_one_thread = 1 << 15;
     std::vector<Items> parts{all};
-    while (parts.front().size() > of_one_thread) {  // the first part is the largest one
+    while (parts.front().size() > of_one_thread) {  // no part is larger than the first part
       std::vector<Items> halves(2 * parts.size());
       in_parallel(jobs_, parts.size(),
                   [&](std::size_t i) { std::tie(halves[2 * i], halves[2 * i + 1]) = halved(parts[i]); });
@@ -69,7 +69,9 @@ class SpatialOrder {
     return {part.first(middle), part.subspan(middle)};
   }
 
-  static constexpr std::size_t checked = 1 << 13;  // smaller parts take less than a millisecond
+  // Smaller parts are sorted without asking whether the work must end, because sorting such a part takes less
+  // than a millisecond.
+  static constexpr std::size_t checked = 1 << 13;
 
   int jobs_;
   const std::function<bool()>& is_over_;
@@ -79,7 +81,8 @@ class SpatialOrder {
 /// Returns the sum of the boxes' sizes.
 template <class BoxAt>
 double fill(std::vector<CellBoxGroup>& level, std::size_t count, int jobs, const BoxAt& box_at) {
-  constexpr std::size_t chunk = 1 << 14;  // number of boxes; a multiple of the size of groups
+  // The number of boxes that one thread handles at a time; a multiple of the number of boxes in a group.
+  constexpr std::size_t chunk = 1 << 14;
   std::vector<std::int64_t> sizes((count + chunk - 1) / chunk);
   in_parallel(jobs, sizes.size(), [&](std::size_t part) {
     std::int64_t sum = 0;

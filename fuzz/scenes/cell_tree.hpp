@@ -112,8 +112,8 @@ class CellTree {
   std::vector<double> update(const PrimitiveBoxes& boxes, int jobs);
 
   std::size_t count_;
-  std::vector<double> looseness_;  ///< what `update` returned when the groups were chosen
-  std::vector<Level> levels_;      ///< first the level of the primitives' boxes
+  std::vector<double> looseness_;  ///< the ratios that `update` returned when the groups were chosen
+  std::vector<Level> levels_;      ///< the levels of the tree; the first of them has the primitives' boxes
 };
 
 }  // namespace nearmiss

@@ -12,7 +12,8 @@ namespace nearmiss {
 namespace {
 
 constexpr std::size_t timed_pairs = 20000;
-constexpr int timings = 5;  // the result is the shortest time, since disturbances only add time
+// The number of measurements. The result is the shortest measured time, since disturbances only add time.
+constexpr int timings = 5;
 
 double quickest_ns(const Subject& subject, const std::vector<Query>& queries) {
   using Clock = std::chrono::steady_clock;

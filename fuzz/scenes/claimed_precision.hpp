@@ -14,11 +14,13 @@ namespace nearmiss {
 
 struct ClaimedPrecision {
   std::string subject;
-  /// For each pair about which the subject is asked, it claims a bound on the distance at which it may
-  /// falsely report the pair. `claimed` is the largest of these bounds, in the scene's unit of length, or
+  /// For each pair about which a subject is asked, the subject claims a bound on the distance at which it may
+  /// falsely report this pair. `claimed` is the largest of these bounds, in the scene's unit of length, or
   /// infinity if the subject claims no bound.
   double claimed = 0;
-  double ns_per_query = 0;  ///< measured over the first 20,000 asked pairs
+  /// The shortest measured time per query, in nanoseconds, for the first 20,000 pairs about which the subject
+  /// is asked.
+  double ns_per_query = 0;
 };
 
 /// The claimed precision of each subject, in the order of `subjects`.

@@ -17,7 +17,8 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t most_primitives = 8000;  // limit of marked primitives, and also of unmarked ones
+// The largest number of marked primitives in a picture, and also of unmarked primitives.
+constexpr std::size_t most_primitives = 8000;
 constexpr std::uint32_t collides = 1, tangled = 2;
 constexpr std::size_t most_subjects = 15;  // bits of a mark: 2 + 2 * 15
 constexpr std::uint32_t falsely_reported_by(std::size_t subject) { return 4U << (2 * subject); }
@@ -209,7 +210,7 @@ ScenePicture Marks::picture(const std::string& step, const MovingMesh& mesh,
   for (const std::string& subject : subjects)
     for (const char* what : {"falsely reported by", "missed by"})
       json["meanings"].push_back(fmt::format("{} {}", what, subject));
-  std::array<Numbers, 3> lists;  // for points, lines and triangles
+  std::array<Numbers, 3> lists;  // one list for the points, one for the lines and one for the triangles
   ShownPoints points(mesh);
   for (const auto& some :
        {thinned(primitives.others, most_primitives), thinned(primitives.marked, most_primitives)})

@@ -62,8 +62,8 @@ Query touching(const Query& query, const Aim& aim) {
   return with_first_moved(query, second - first);
 }
 
-/// The query, changed as near_families() says. A perturbation changes a coordinate by up to `size` times the
-/// extent of the query.
+/// The query, changed as near_families() says. If the query is perturbed, each changed coordinate moves by up
+/// to `size` times the extent of the query.
 Query changed(Random& random, const Query& given, double size) {
   Query query = given;
   if (random.one_in(2)) query = touching(query, ContactSampler(random).aim(query.kind));
@@ -93,7 +93,7 @@ Family family_near(std::string name, std::string about, std::string size, Querie
 
 std::vector<Family> near_families(std::span<const Query> queries) {
   std::map<std::pair<bool, bool>, QueriesByKind>
-      groups;  // keys: whether the queries are vv or ve, and whether they have separations
+      groups;  // each key says whether the queries are vv or ve, and whether they have separations
   for (const Query& each : queries)
     groups[{!is_of_meshes(each.kind), each.separation > 0}][each.kind].push_back(each);
   std::vector<Family> families;

@@ -36,7 +36,7 @@ class FateTeller {
     if (found_.size() == batch_pairs) tell_fates();
   }
 
-  /// The total time that it took to decide what to do with the pairs, and to pass them on.
+  /// The total time in which this object decided what to do with the pairs, and passed them on.
   [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
   [[nodiscard]] Funnel finish() {
     tell_fates();

@@ -14,10 +14,12 @@ namespace nearmiss {
 
 /// Which pairs a plan leaves out, so that no subject is asked about them.
 enum class LeaveOut : std::uint8_t {
-  nothing,  ///< subjects are asked about all pairs without a common vertex
-  boxes,    ///< pairs whose swept boxes do not meet
-  all,      ///< like `boxes`, and without a separation, also pairs at relative rest or in relative
-            ///< translation
+  /// The plan leaves out no pair: subjects are asked about all pairs of primitives without a common vertex.
+  nothing,
+  boxes,  ///< the plan leaves out the pairs whose swept boxes do not meet
+  /// The plan leaves out the same pairs as with `boxes`. If the queries have no separation, the plan also
+  /// leaves out the pairs at relative rest or in relative translation.
+  all,
 };
 
 using Funnels = std::map<Kind, Funnel>;
@@ -30,7 +32,7 @@ std::pair<PairFate, bool> fate(const Query& query);
 struct AskedPairs {
   Kind kind{};
   std::vector<Candidate> candidates;
-  std::vector<Query> queries;  ///< the query of each candidate
+  std::vector<Query> queries;  ///< the query of each candidate, in the order of `candidates`
 };
 
 /// Receives one or more pairs at a time.
@@ -48,8 +50,8 @@ class Plan {
   Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over);
   Plan(MovingMesh&& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over) = delete;
 
-  /// Goes on to `mesh`, another step of the same scene. A new Plan of `mesh` would be equal, but takes longer
-  /// to make. After an exception, the object must not be used any more.
+  /// Goes on to `mesh`, another step of the same scene. The result equals a new Plan of `mesh`, but a new
+  /// Plan takes longer to make. After an exception, the object must not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
@@ -68,9 +70,10 @@ class Plan {
  private:
   const MovingMesh* mesh_;
   LeaveOut leave_out_;
-  std::map<Kind, CandidateFinder> finders_;          ///< empty for LeaveOut::nothing
-  std::map<Kind, std::uint64_t> making_ns_;          ///< the time that it took to make or move a finder
-  std::vector<std::pair<Kind, std::size_t>> parts_;  ///< parts of finders; without finders, rows of pairs
+  std::map<Kind, CandidateFinder> finders_;  ///< empty for LeaveOut::nothing
+  std::map<Kind, std::uint64_t> making_ns_;  ///< the time that it took to make or move a finder
+  /// Each part of each finder, by kind and number; if there are no finders, each row of pairs.
+  std::vector<std::pair<Kind, std::size_t>> parts_;
 };
 
 /// Follows all parts of a plan, one after the other.

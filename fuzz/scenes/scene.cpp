@@ -48,7 +48,7 @@ bool comes_before(std::string_view a, std::string_view b) {
     }
   }
   if (a.empty() != b.empty()) return a.empty();
-  return whole_a < whole_b;  // values are equal, as for 1 and 01
+  return whole_a < whole_b;  // here the values of all numbers in a and b are equal, as for the names 1 and 01
 }
 
 /// The mesh files of a folder, in the order of their names.
@@ -77,7 +77,7 @@ std::string folder_name(const fs::path& folder) {
 
 /// Returns, for each point, the index of the first point in the same place.
 std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& points) {
-  std::map<std::array<double, 3>, std::size_t> places;  // 0 and -0 are equal here
+  std::map<std::array<double, 3>, std::size_t> places;  // in this map's keys, 0 and -0 are equal
   std::vector<std::size_t> first;
   for (std::size_t i = 0; i < points.size(); ++i)
     first.push_back(places.try_emplace({points[i][0], points[i][1], points[i][2]}, i).first->second);

@@ -39,7 +39,8 @@ class SceneTrial {
  private:
   using IsAsked = std::function<bool(const Candidate&)>;
 
-  /// The results of some parts of a step, without the statistics, which go to `trials_`.
+  /// The results of some parts of a step, without the statistics of the subjects' answers, which are added to
+  /// `trials_`.
   struct PartResult {
     Funnels funnels = {};
     Marks marks = {};

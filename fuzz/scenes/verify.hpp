@@ -16,8 +16,10 @@ struct Verification {
   std::uint64_t wrong = 0;     ///< pairs for which the oracle contradicts the plan
   std::uint64_t wrong_searches =
       0;  ///< steps in which the pairs that the tree finds are not exactly those whose boxes meet
-  std::map<std::string, std::uint64_t> spared;  ///< false positives of each subject on pairs left out
-  double seconds = 0;  ///< time to ask the oracle and the subjects about all left-out pairs
+  /// The number of each subject's false positives among the pairs that the plan leaves out.
+  std::map<std::string, std::uint64_t> spared;
+  /// The time that the oracle and the subjects took for all pairs that the plan leaves out.
+  double seconds = 0;
 
   [[nodiscard]] bool fine() const { return wrong == 0 && wrong_searches == 0; }
   void merge(const Verification& other);

@@ -63,7 +63,7 @@ void Maximiser::optimise(bool beside) {
   try {
     optimiser.optimize(point, value);
   } catch (const nlopt::forced_stop&) {       // the search is over
-  } catch (const nlopt::roundoff_limited&) {  // steps became too small to change the value
+  } catch (const nlopt::roundoff_limited&) {  // the optimiser's steps became too small to change the value
   } catch (const std::runtime_error&) {       // the model of BOBYQA broke down
   }
   if (error_) std::rethrow_exception(error_);
@@ -104,10 +104,10 @@ double Maximiser::value_at(const std::vector<double>& x) {
   try {
     value = show(point_at(x));
   } catch (...) {
-    error_ = std::current_exception();  // NLopt must not see the exception
+    error_ = std::current_exception();  // the exception must not pass through the code of NLopt
   }
   if (over()) optimiser_->force_stop();
-  return std::min(value, 1e3);  // finite, because optimisers compute with the value
+  return std::min(value, 1e3);  // the result is finite, because optimisers compute with it
 }
 
 SearchPoint Maximiser::point_at(const std::vector<double>& x) const {

@@ -24,9 +24,9 @@ class Maximiser {
   using Objective = std::function<double(const SearchPoint&)>;  ///< infinity ends the search
   using Draw = std::function<SearchPoint()>;
 
-  /// With `touching`, the gap between the primitives is not changed. Step sizes are drawn between
-  /// `finest_step` and 0.5. With `moves_vertices`, about half of the optimisations move vertices instead of
-  /// the coordinates of SearchPoint::visit(); such moves break contacts.
+  /// If `touching` is true, the optimisations do not change the gap between the primitives. Step sizes are
+  /// drawn between `finest_step` and 0.5. If `moves_vertices` is true, about half of the optimisations move
+  /// vertices instead of the coordinates of SearchPoint::visit(); such moves break contacts.
   Maximiser(Random& random, bool touching, double finest_step, Objective objective,
             bool moves_vertices = false)
       : random_(random),
@@ -35,7 +35,8 @@ class Maximiser {
         finest_step_(finest_step),
         objective_(std::move(objective)) {}
 
-  /// Tries at most search_evaluations points, and returns the best. Throws what the objective throws.
+  /// Tries at most search_evaluations points, and returns the point with the largest value of the objective.
+  /// If the objective throws an exception, throws this exception.
   SearchPoint run(const Draw& draw_start);
 
  private:
@@ -51,7 +52,8 @@ class Maximiser {
   /// Draws a step: one displacement along some axes, for one or several of the eight positions (four
   /// vertices, at t = 0 and t = 1).
   Displacements draw_step(double size);
-  /// Takes the step if it improves the best point, and returns whether it does.
+  /// Takes the step if it leads to a point that is better than the best point so far. Returns whether it took
+  /// the step.
   bool gains(const Displacements& step);
   /// The objective in the form that NLopt expects.
   double value_at(const std::vector<double>& x);

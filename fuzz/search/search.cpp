@@ -86,7 +86,7 @@ double ended_by(const Searched& subject) {
 /// The weight of each property that makes a collision hard.
 struct Mixture {
   std::array<double, 6> of_contact{};
-  double of_distance = 0;  ///< weight of a smallest distance near h, if h > 0
+  double of_distance = 0;  ///< if h > 0, the weight of the property that the smallest distance is near h
 
   Mixture(Random& random, double h) {
     const auto draw = [&] { return random.one_in(2) ? random.uniform() : 0; };
@@ -204,8 +204,8 @@ double earliness(const GivenTime& given) { return -given.difference(); }
 
 /// The subject's answers in one search.
 struct Answers {
-  int slow = 0;        ///< queries over the time limit
-  bool found = false;  ///< whether an answer had a time that could be judged
+  int slow = 0;        ///< the number of queries on which the subject exceeded its time limit
+  bool found = false;  ///< whether at least one answer had a time of impact that the search could judge
 
   static constexpr int most_slow = 20;
 };

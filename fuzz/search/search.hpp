@@ -28,7 +28,8 @@ enum class SearchFor {
   /// query with the largest time - t*; otherwise, the query with the smallest (t* - time) / t*. The search
   /// skips misses, and up to 20 queries over the time limit.
   late,
-  early,  ///< "search-early-NAME": like `late`, but finds the collision with the largest t* - time
+  /// "search-early-NAME": like `late`, but the search looks for the collision with the largest t* - time.
+  early,
 };
 
 /// The family of a directed search against one subject.

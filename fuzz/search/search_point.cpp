@@ -68,7 +68,8 @@ SearchPoint with_gap_within(SearchPoint point, double h) {
     point.gap.setZero();
     return point;
   }
-  const double length = (point.gap / h).norm();  // in units of h, nothing overflows
+  // The length of the gap as a multiple of h; with h as the unit, nothing overflows.
+  const double length = (point.gap / h).norm();
   if (length > 1) point.gap /= length;
   return point;
 }

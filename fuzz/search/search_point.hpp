@@ -15,7 +15,7 @@ using Displacements = std::array<double, 24>;
 /// positions. The contact's Contact::base is at rest at the origin.
 struct SearchPoint {
   Path q, r;
-  Vector3<double> w;      ///< velocity of the first primitive's point of contact
+  Vector3<double> w;      ///< the velocity of the first primitive's point of contact
   Vector3<double> place;  ///< α, β, time
   Vector3<double> gap;
   Displacements moved{};

@@ -13,7 +13,7 @@ namespace {
 using Points = std::array<Vector3<double>, 4>;
 using Weights = std::array<double, 4>;
 
-/// Keeps the nearest of the offered pairs of points.
+/// Receives pairs of points (offers), and keeps the pair whose points are nearest to each other.
 class Nearest {
  public:
   explicit Nearest(const Points& x) : x_(x) {}

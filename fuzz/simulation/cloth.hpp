@@ -46,7 +46,7 @@ class Cloth {
   Material material_;
   double step_;
   std::vector<Spring> springs_;
-  std::vector<int> row_of_;  ///< the row of each free point in the matrix; -1 for held points
+  std::vector<int> row_of_;  ///< for each point, the number of its row in the matrix; -1 for held points
   int rows_ = 0;
   Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor_;
 };

@@ -19,9 +19,11 @@ std::size_t index(int point) { return static_cast<std::size_t>(point); }
 /// The contact of a pair: its place, its normal, and the relative motion there.
 struct Response::Touch {
   std::array<double, 4> weights{};  ///< as in closest_weights
-  Vector3<double> normal{0, 0, 0};  ///< of length 1, from the second primitive to the first; 0 if unknown
-  double distance = 0;              ///< of the primitives along the normal, at the start of the step
-  Vector3<double> motion{0, 0, 0};  ///< of the first primitive relative to the second, in the step
+  /// A vector of length 1 from the second primitive to the first; 0 if unknown.
+  Vector3<double> normal{0, 0, 0};
+  /// The distance of the primitives along the normal, at the start of the step.
+  double distance = 0;
+  Vector3<double> motion{0, 0, 0};  ///< the motion of the first primitive relative to the second, in the step
 };
 
 Response::Touch Response::touch(const Candidate& pair, double time, const PointVectors& start,

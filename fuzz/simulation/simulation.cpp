@@ -12,8 +12,10 @@ namespace {
 /// Even if a simulation explodes, its results report at most this energy, 100 kJ.
 constexpr double most_picojoules = 1e17;
 
-constexpr int impulse_rounds = 10;  ///< rounds of impulses, before those of impact zones
-constexpr int zone_rounds = 20;     ///< rounds of impact zones; a last round only asks the CCD
+/// The number of rounds of impulses, which come before the rounds of impact zones.
+constexpr int impulse_rounds = 10;
+/// The number of rounds of impact zones; after them, one more round only asks the CCD.
+constexpr int zone_rounds = 20;
 
 /// The groups of points that the lines of a mesh join.
 std::vector<std::vector<int>> groups(const Mesh& joined) {
@@ -76,7 +78,8 @@ void Simulation::repel(const Stop& stop) {
 
 void Simulation::resolve(const AskCcd& ask, SimulatedStep& done) {
   const auto at = [](int point) { return static_cast<std::size_t>(point); };
-  Mesh zones{.points = motion_.start, .triangles = {}, .lines = {}};  ///< its lines join the points of a zone
+  /// A mesh whose lines join the points of each zone.
+  Mesh zones{.points = motion_.start, .triangles = {}, .lines = {}};
   std::vector<bool> moved(scene_.held.size(), true);
   const auto asked = [&](const Candidate& pair) {
     const auto& all = pair.vertices;

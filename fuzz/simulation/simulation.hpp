@@ -51,7 +51,8 @@ class Simulation {
   Material material_;
   double step_;
   int steps_per_frame_;
-  std::shared_ptr<const Cloth> cloth_;  ///< copies share it, because factorising its matrix takes long
+  /// The copies of a Simulation share one Cloth, because factorising the matrix of a Cloth takes long.
+  std::shared_ptr<const Cloth> cloth_;
   Response response_;
   MovingMesh motion_;  ///< in metres
   PointVectors velocities_;

@@ -69,7 +69,7 @@ SimulationOptions parse_simulation_name(std::string_view name) {
 
 namespace {
 
-constexpr std::size_t most_pairs = 1 << 17;  ///< limit on the pairs of each kind in the sample
+constexpr std::size_t most_pairs = 1 << 17;  ///< the largest number of pairs of each kind in the sample
 
 /// Runs a simulation with the oracle as its CCD. Returns a sample of the pairs about which the CCD is asked.
 PairSample simulate(Simulation simulation, const Stop& stop) {

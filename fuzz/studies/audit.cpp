@@ -33,14 +33,16 @@ constexpr std::string_view inside = "weight_error, ccd/wang/ve_culling.hpp";
 constexpr std::string_view spread = "spread_error, ccd/wang/ve_culling.hpp";
 constexpr std::string_view culling = "weight_error + spread_error, ccd/wang/ve_culling.hpp";
 
-// The bounds that Theorem 4.1 of the paper gives for the rounding errors of the barycentric tests, in B⁴ε.
+// The bounds that Theorem 4.1 of the paper gives for the rounding errors of the barycentric tests, in units
+// of B⁴ε.
 constexpr double inside_vt = 564;
 constexpr double inside_ee = 360;
 constexpr double inside_ee_far = 540;  // if components of p, the relative position, are up to 2B
 
 std::string_view first_broken(const Tolerances<double>& tol, double eps,
                               const RoundingErrors<double>& errors) {
-  const double E = 4 * std::sqrt(eps);  // E in (3) of the paper; E in (2) is 21/16 of it
+  // The error E in (3) of the paper; the error E in (2) of the paper is 21/16 of this value.
+  const double E = 4 * std::sqrt(eps);
   for (const auto& each : constraints(tol, 21 * E / 16, E, errors))
     if (!(each.more >= each.less)) return each.about;
   return "";
@@ -106,7 +108,8 @@ std::vector<RoundingConstant> rounding_consequences() {
   const double root_eps = std::sqrt(eps);
   const auto paper = paper_tolerances(1.0);
   const double mu = cubic_residual(eps / 2) / eps;
-  const double psi = least_psi(eps / 2, paper.S, paper.rho) / root_eps;  // includes the error of G
+  // This value includes the rounding error of G.
+  const double psi = least_psi(eps / 2, paper.S, paper.rho) / root_eps;
 
   return {
       {"VV: quotient", "4.2", "eps (B/b + 1)", 10, 9},

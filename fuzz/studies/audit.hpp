@@ -1,5 +1,6 @@
-// The rounding constants of Wang's paper and of ccd/. Each has its quoted value, the value that follows from
-// the paper's Theorem 4.1, and the proven value.
+// The rounding constants of Wang's paper and of ccd/. For each constant, this file has the value that the
+// paper or ccd/ states, the value that follows from the paper's Theorem 4.1, and the value that a proof shows
+// to be sufficient.
 #pragma once
 
 #include <limits>
@@ -10,14 +11,14 @@
 
 namespace nearmiss {
 
-/// One constant. Missing numbers are NaN.
+/// One constant. A number that is not known is NaN.
 struct RoundingConstant {
   static constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
   std::string_view name;     ///< unique
   std::string_view section;  ///< section of the paper; for a constant of ours, its identifier and file
   std::string_view unit;
-  double quoted = none;  ///< as the paper states it; for a constant of ours, its value
+  double quoted = none;  ///< the constant's value in the paper; for a constant of ours, its value in ccd/
 
   /// For a bound (rounding_bounds): the first-order bound that Theorem 4.1 gives for the operations in ccd/
   /// if the vectors have no rounding errors. For a consequence (rounding_consequences): the value that
@@ -41,7 +42,7 @@ struct RoundingConstant {
 /// `proven`.
 std::vector<RoundingConstant> rounding_bounds();
 
-/// Constants that follow from other constants.
+/// Constants that follow from the bounds in rounding_bounds() or from other constants.
 std::vector<RoundingConstant> rounding_consequences();
 
 /// The tolerances for the machine epsilon 2^exponent. Lengths are in units of B ε^¼.
@@ -51,12 +52,13 @@ struct ToleranceRow {
   ToleranceConstants tight{};  ///< the smallest tolerances that satisfy all constraints
   double paper_bound = 0;      ///< the distance bound of the paper's closed forms
   double tight_bound = 0;      ///< the distance bound of the smallest tolerances
-  std::string_view
-      paper_breaks;  ///< the first constraint that the closed forms violate; empty if there is none
-  std::string_view printed_breaks;  ///< like paper_breaks, but for the rounding errors that the paper states
+  /// The first constraint that the paper's closed forms violate; empty if they violate none.
+  std::string_view paper_breaks;
+  /// Like paper_breaks, but computed with the rounding errors that the paper states.
+  std::string_view printed_breaks;
 };
 
-/// A row for each of 16 precisions, from 11 to 256 bits.
+/// One row for each of 16 scalars, whose precisions are from 11 to 256 bits.
 std::vector<ToleranceRow> tolerance_table();
 
 }  // namespace nearmiss

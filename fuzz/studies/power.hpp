@@ -12,16 +12,19 @@
 
 namespace nearmiss {
 
-/// The first failure that a campaign found, in the order of its cases.
+/// The first failure that a campaign found. Failures are ordered as the cases of the campaign are.
 struct FirstFailure {
   Finding finding;
-  double seconds = 0;  ///< time until the failure, interpolated by cases between two results of the campaign
-  std::uint64_t cases = 0;  ///< number of cases up to and including the failure
+  /// The time until the failure. It is interpolated between two results of the campaign, by the numbers of
+  /// cases that these results have.
+  double seconds = 0;
+  std::uint64_t cases = 0;  ///< number of cases up to and including the case that failed
 };
 
 /// Returns the families in which to look for a subject's defects: `of_contact` and, if the subject takes
-/// separations for vertex-triangle queries, these families with drawn separations. If it takes separations
-/// for vertex-vertex or vertex-edge queries, also returns `of_vertices`, changed by as_asked().
+/// separations for vertex-triangle queries, also the same families with a random separation in each query. If
+/// the subject takes separations for vertex-vertex or vertex-edge queries, also returns the families
+/// `of_vertices`, changed by as_asked().
 std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact,
                                  std::span<const Family> of_vertices);
 

@@ -11,13 +11,13 @@ namespace nearmiss {
 
 namespace {
 
-/// Counts the times in [0, 1] at which Algorithm 2 of the paper tests a vertex and an edge; a time may count
-/// twice.
+/// Counts the times in [0, 1] at which Algorithm 2 of the paper tests a vertex and an edge; a time that
+/// occurs twice may count twice.
 std::uint64_t valid_candidates(const VertexEdge<double>& ve, const Tolerances<double>& tol) {
   const detail::CrossProduct<double> g(ve.x0i, ve.xji, tol.rho);
   const int inside = detail::equal_components(ve.xji).count + detail::zero_components(g).count +
                      detail::piece_minima(g, ve.xji, tol.S).count;
-  return static_cast<std::uint64_t>(inside) + 2;  // plus the times 0 and 1
+  return static_cast<std::uint64_t>(inside) + 2;  // the times 0 and 1 count in addition to the roots
 }
 
 template <Kind kind>

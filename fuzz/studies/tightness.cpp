@@ -34,7 +34,7 @@ constexpr std::array tests_table{
     Tests{"vertex-vertex", "wang"},
 };
 
-/// How to measure one tolerance or group of tests.
+/// How to measure the slack of one tolerance, or of one group of tests.
 struct Gauge {
   Extreme nothing;
   std::unique_ptr<Subject> subject;
@@ -79,8 +79,8 @@ Gauge tests_gauge(const Tests& tests, bool among, const Stop& stop) {
           std::move(search), read};
 }
 
-/// Whether only queries with four vertices use this tolerance or group of tests. Algorithms 1 and 2, which
-/// decide the other queries, do not use it then.
+/// Whether only queries with four vertices use this tolerance or group of tests. In that case, Algorithms 1
+/// and 2, which decide the queries with fewer vertices, do not use the tolerance or the group.
 bool needs_four_vertices(std::string_view name) {
   constexpr std::array<std::string_view, 4> all{"eta", "mu", "tau", "proximity"};
   return std::ranges::find(all, name) != all.end();

@@ -16,26 +16,28 @@ namespace nearmiss {
 /// The plan of a measurement: what is measured, among which queries, and for how long.
 struct TightnessPlan {
   std::vector<std::string> names;        ///< some of `tightness_names(among_vertices)`
-  std::vector<Family> families;          ///< sources of queries in addition to directed search
-  bool among_vertices = false;           ///< whether to search among vv and ve queries
+  std::vector<Family> families;          ///< families that supply queries in addition to directed search
+  bool among_vertices = false;           ///< whether to search among queries of the kinds vv and ve
   std::chrono::duration<double> time{};  ///< time for each name
   std::uint64_t seed = 1;
   int jobs = 1;
 };
 
 /// The names of the tolerances, and of the groups of accepting tests: "proximity", "vertex-edge",
-/// "vertex-vertex". With `among_vertices`, only the names that belong to Algorithms 1 and 2.
+/// "vertex-vertex". With `among_vertices`, returns only the names of the tolerances and tests that Algorithms
+/// 1 and 2 use.
 std::vector<std::string> tightness_names(bool among_vertices = false);
 
-/// Receives the result so far for a name; `done` is set when the time for this name is over.
+/// Receives the result for a name as far as it is known. `done` is set when the time for measuring this name
+/// is over.
 using TightnessSink = std::function<void(const Extreme&, bool done)>;
 
 /// Measures each tolerance and group of tests. For a tolerance, half of the queries come from the plan's
 /// families. Directed search gives the other half: it looks for collisions that the subject would miss if the
 /// tolerance were slightly tighter. Each collision gives a factor: if the tolerance is multiplied by less
 /// than this factor (by more, if the tolerance excludes degenerate primitives), the subject misses the
-/// collision. For a group of tests, wang runs without the groups that accept pairs at larger distances, and
-/// the distances of its false positives are measured. Throws Error for an unknown name.
+/// collision. For a group of tests, the function runs wang without the groups that accept pairs at larger
+/// distances, and measures the distances of wang's false positives. Throws Error for an unknown name.
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

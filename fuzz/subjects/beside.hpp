@@ -8,9 +8,9 @@
 
 namespace nearmiss {
 
-/// The path of a file or folder that belongs to nearmiss. It is in this program's folder, in
-/// NEARMISS_INSTALLED if nearmiss is installed, or in NEARMISS_BUILT if this is a build. fuzz/CMakeLists.txt
-/// sets these paths, relative to the program's folder.
+/// The path of a file or folder that belongs to nearmiss. The file or folder is in this program's folder, in
+/// NEARMISS_INSTALLED if nearmiss is installed, or in NEARMISS_BUILT if this program is in a build folder.
+/// fuzz/CMakeLists.txt sets these paths, relative to the program's folder.
 inline std::string path_beside(std::string_view name) {
   std::error_code unknown;
   const auto here = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();

@@ -16,7 +16,8 @@ namespace nearmiss {
 std::vector<SubjectInfo> built_in_subjects();
 
 /// Makes a built-in subject from its name, from "NAME:SCALAR" (ladder/scalars.hpp) or from "defect:NAME"
-/// (defects.hpp). `given_bound` means the same as for make_subject. Throws Error for an unknown name.
+/// (defects.hpp). The parameter `given_bound` means the same as in make_subject(). Throws Error for an
+/// unknown name.
 std::unique_ptr<Subject> make_built_in(std::string_view name,
                                        std::optional<double> given_bound = std::nullopt);
 /// Like make_built_in, but returns null for an unknown name.

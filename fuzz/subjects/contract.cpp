@@ -23,8 +23,8 @@ bool is_apart_at_start(const Query& query, double by) {
 }
 
 /// F is the volume of the vertices. Returns true if each Bernstein coefficient of F is larger in magnitude
-/// than its rounding error can be, and the coefficients change sign at most once. Then F has no root at t = 0
-/// or t = 1, and at most one root in between, counted with multiplicity.
+/// than its rounding error can be, and the coefficients change sign at most once. If the function returns
+/// true, F has no root at t = 0 or t = 1, and at most one root in between, counted with multiplicity.
 bool surely_has_at_most_one_root(const Query& query) {
   const auto whole = certified::whole_step<double>(coordinates(query));
   const auto F = certified::coplanarity(whole.a, whole.b, whole.c);

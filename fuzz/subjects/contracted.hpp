@@ -9,8 +9,8 @@
 
 namespace nearmiss {
 
-/// Whether the query has all properties that the contract requires; this is decided exactly. If the four
-/// vertices are coplanar at all times, their volume F(t) counts as having more than one root.
+/// Whether the query has all properties that the contract requires; the result is exact. If the four vertices
+/// are coplanar at all times, their volume F(t) counts as having more than one root.
 bool keeps_contract(const Query& query, const Contract& contract);
 
 /// Makes a subject that asks `subject` only the queries that keep its contract; all other queries get the

@@ -43,7 +43,8 @@ constexpr std::array tolerance_table{
 /// The paper's tolerances for double, each multiplied by a factor.
 struct DefectiveTolerances {
   Tolerances<double> factors{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-  const NamedTolerance* changed = nullptr;  ///< the tolerance that the defect changes, if any
+  /// The tolerance that the defect changes; null if the defect changes no tolerance.
+  const NamedTolerance* changed = nullptr;
 
   /// These tolerances, but with `changed` loosened by the factor s. If `changed` is null, all tolerances that
   /// accept more pairs when they are larger are loosened: lengths by s, squares of lengths by s², and so on.

@@ -29,7 +29,7 @@ std::span<const Defect> defects();
 struct NamedTolerance {
   std::string_view name;
   double Tolerances<double>::*value;
-  int dimension;  ///< the tolerance is a length to this power
+  int dimension;  ///< the tolerance is a length raised to this power
   bool accepts;   ///< whether a larger value accepts more pairs; otherwise, the tolerance excludes degenerate
                   ///< primitives
 };

@@ -74,8 +74,8 @@ class ExactSubject final : public Subject {
  private:
   static constexpr KnownTime unknown_time{{0, 1}};
 
-  /// The verdict on a query, given the filter's stage and time. If the smallest distance is exactly the
-  /// separation, the pair is reported.
+  /// The verdict on a query, made from the stage at which the filter decided the query and the time that the
+  /// filter found. If the smallest distance is exactly the separation, the verdict is a collision.
   [[nodiscard]] Verdict verdict(const Query& query, FilterStage stage, const KnownTime& time) const {
     if (stage == FilterStage::undecided && !is_finite(query)) refuse_coordinates(name_);
     const bool filtered = stage != FilterStage::undecided;

@@ -62,7 +62,8 @@ class ForwardingSubject : public BatchSubject {
   const Subject& to_;
 };
 
-/// The subject at the end of a chain of forwarding subjects; `subject` itself if it forwards nothing.
+/// The subject at the end of a chain of forwarding subjects; `subject` itself if it forwards its questions to
+/// no other subject.
 inline const Subject& innermost(const Subject& subject) {
   const auto* const forwarding = dynamic_cast<const ForwardingSubject*>(&subject);
   return forwarding == nullptr ? subject : innermost(forwarding->to());

@@ -15,10 +15,10 @@ bool is_given_name(std::string_view text);
 /// A subject on the command line: [NAME=]SUBJECT. The text has a NAME if it contains '=' before any ':' or
 /// '/'.
 struct SubjectText {
-  std::string name;  ///< "" if none is given
+  std::string name;  ///< "" if the text has no NAME
   std::string subject;
 
-  /// Throws Error for a NAME that is not allowed (is_given_name).
+  /// Throws Error if the text has a NAME that is not allowed (is_given_name).
   static SubjectText parse(std::string_view text);
 };
 

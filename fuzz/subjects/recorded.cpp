@@ -17,7 +17,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Whether a + b is exact (Knuth's TwoSum). The sum must not overflow.
+/// Whether double represents the sum a + b exactly (Knuth's TwoSum). The sum must not overflow.
 bool is_exact_sum(double a, double b) {
   const double sum = a + b;
   const double of_b = sum - a;
@@ -45,7 +45,7 @@ bool is_same_decision(const Recorded& each) {
   return earliest_time(each.asked()).has_value() == (earliest && earliest->enclosure().hi <= each.tmax);
 }
 
-/// The time divided by tmax, rounded down so that it does not become later.
+/// The time divided by tmax, rounded down, so that rounding does not make the time later.
 double part_of(double time, double tmax) {
   const double part = time / tmax;
   return std::fma(part, tmax, -time) > 0 ? std::nextafter(part, 0.0) : part;
@@ -127,7 +127,8 @@ std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers) {
     Answers known;
     std::vector<RecordedAnswer> answers;
   };
-  std::array<std::vector<Made>, 2> made;  // first those of answers in double, then in float
+  // The first element has the passes of answers in double, the second has those of answers in float.
+  std::array<std::vector<Made>, 2> made;
   for (RecordedAnswer& each : answers) {
     auto& passes = made[each.in_float ? 1 : 0];
     const Verdict verdict = verdict_of(info, each);

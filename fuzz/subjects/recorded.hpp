@@ -21,12 +21,13 @@ struct RecordedAnswer {
   std::filesystem::path file;
   std::uint64_t number;  ///< the number of the record
   Query query;
-  int answer;     ///< as in nearmiss_subject.h
-  double time;    ///< 1 is the end of the query's step; NaN if there is no time
+  int answer;  ///< as in nearmiss_subject.h
+  /// The time of impact, in which 1 is the end of the query's step. NaN if the answer has no time.
+  double time;
   bool in_float;  ///< whether the recorded program computes the positions at `time` in float
 };
 
-/// The numbers of records that are left out.
+/// The numbers of records that are left out because they cannot be judged.
 struct LeftOut {
   UnusedRecords unused;
   std::uint64_t rounded = 0;  ///< records with tmax != 1 for which rounding the positions at tmax to doubles
@@ -36,10 +37,10 @@ struct LeftOut {
 /// Passes to `sink`, in order, those records of a file that can be judged. The CCD was asked about the times
 /// up to the record's tmax. If tmax is 1, or if tmax < 1 and the answer is a collision with a time, the
 /// answer is judged on the recorded query: a time is late in the whole step if and only if it is late in the
-/// part up to tmax. (If the primitives collide only after tmax, such an answer counts as right.) Any other
-/// answer is judged on the query that ends at tmax. If doubles cannot represent this query, the answer is
-/// judged on the rounded query, provided that tmax < 1 and that rounding does not change the decision.
-/// Throws Error as read_recording() does.
+/// part up to tmax. (If the primitives collide only after tmax, a collision with a time counts as a right
+/// answer.) Any other answer is judged on the query that ends at tmax. If doubles cannot represent this
+/// query, the answer is judged on the rounded query, provided that tmax < 1 and that rounding does not change
+/// the decision. Throws Error as read_recording() does.
 LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink);
 
 /// Some recorded answers, no two of which contradict each other, and a subject that gives these answers under
@@ -51,7 +52,7 @@ struct RecordedPass {
 };
 
 /// Divides all answers into passes. Different answers to the same query are in different passes, and so are
-/// answers with and without `in_float`.
+/// answers that have `in_float` set and answers that do not.
 std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers);
 
 }  // namespace nearmiss

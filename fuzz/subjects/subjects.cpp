@@ -22,7 +22,7 @@ namespace {
 
 using Subjects = std::vector<std::unique_ptr<Subject>>;
 
-/// The plug-in that the text `subject` (without NAME=) names; nothing if it names no plug-in.
+/// The plug-in that the text `subject` (without NAME=) names; nothing if the text names no plug-in.
 std::optional<std::string> plugin_of(std::string_view subject) {
   return is_plugin(subject) ? std::string(subject) : plugin_of_peer(subject);
 }
@@ -49,8 +49,8 @@ std::string file_of_program(std::string_view program) {
 }
 
 /// Makes a name from a plug-in's file: FILE, or FILE.DETECTOR if the detector was chosen. If this text cannot
-/// be a NAME, or is a built-in name, makes DETECTOR-FILE. Returns "" if there is no file, or if neither name
-/// can be used.
+/// be a NAME, or is the name of a built-in subject, makes the name DETECTOR-FILE instead. Returns "" if there
+/// is no file, or if neither name can be used.
 std::string name_of_file(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   if (!plugin) return "";
@@ -67,7 +67,7 @@ std::string name_of_file(const Subject& subject) {
 }
 
 /// Whether a plug-in or a renamed subject has the name of a built-in subject or of another published CCD. If
-/// so, a merge of campaigns would add up the results of two subjects.
+/// it has, a merge of campaigns would add up the results of two subjects.
 bool takes_built_in_name(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   const bool is_renamed = !given_name(subject).empty();

@@ -28,13 +28,13 @@ std::unique_ptr<Subject> make_any_subject(std::string_view text,
                                           const isolation::PluginLimits& limits = {});
 
 /// Like make_any_subject, but if the text names a shared object without NAME= and chooses none of its
-/// detectors, makes a subject of each detector.
+/// detectors, this function makes a subject of each detector of the shared object.
 std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
                                                         std::optional<double> given_bound = std::nullopt,
                                                         const isolation::PluginLimits& limits = {});
 
-/// Whether a name belongs to a built-in subject or to a published CCD. Options and a bound after a built-in
-/// name are ignored.
+/// Whether a name belongs to a built-in subject or to a published CCD. If options or a bound follow the name,
+/// they are ignored.
 bool is_built_in_name(std::string_view name);
 
 /// Renames plug-ins with equal names, such as versions of one CCD, and plug-ins with a built-in name. Each of
@@ -43,7 +43,8 @@ bool is_built_in_name(std::string_view name);
 /// name, or a plug-in still has a built-in name.
 void tell_apart(std::vector<std::unique_ptr<Subject>>& subjects);
 
-/// The subject's own name, without a given NAME and without options; for a plug-in, the name that it exports.
+/// The name that the subject has by itself, without a given NAME and without options; for a plug-in, this is
+/// the name that the plug-in exports.
 std::string own_name(const Subject& subject);
 
 /// The text [NAME=]SUBJECT that makes this subject under its present name, whatever other subjects there are,

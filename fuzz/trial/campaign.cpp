@@ -13,7 +13,7 @@ namespace {
 
 using Clock = Stop::Clock;
 
-/// Runs a campaign in slices of cases, whose results count in the order of the cases.
+/// Runs a campaign in slices of cases. The results of the slices are counted in the order of the cases.
 class CampaignRun {
  public:
   CampaignRun(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink, const Stop& stop)
@@ -51,7 +51,8 @@ class CampaignRun {
                 [this, cases = slice->cases()](bool complete) { return counts(cases, complete); }};
   }
 
-  /// Whether a slice counts: neither this slice nor an earlier one was interrupted.
+  /// Whether the results of a slice are counted. They are counted if neither this slice nor an earlier slice
+  /// was interrupted.
   bool counts(std::uint64_t cases, bool complete) {
     is_over_ = is_over_ || !complete;
     if (!is_over_) progress_.cases += cases;

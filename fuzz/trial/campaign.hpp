@@ -12,16 +12,18 @@
 
 namespace nearmiss {
 
-/// The plan of a campaign. Its cases have an order (case_order.hpp). The cases that count are always the
-/// first ones in this order, so the result depends neither on `jobs` nor on how often the campaign was
-/// stopped and resumed. Merging the results of all shards (parts of a campaign that run separately) gives the
-/// result of the whole campaign, except for subjects that are set aside (so_far.hpp).
+/// The plan of a campaign. The cases of the campaign have an order (case_order.hpp). The cases whose results
+/// are counted are always the first cases in this order, so the result of the campaign depends neither on
+/// `jobs` nor on how often the campaign was stopped and resumed. Merging the results of all shards (parts of
+/// a campaign that run separately) gives the result of the whole campaign, except for subjects that are set
+/// aside (so_far.hpp).
 struct CampaignPlan {
   std::vector<Family> families;
   std::uint64_t seed = 1;
   std::uint64_t cases = 0;  ///< the number of cases, which all families share in proportion to `block_cases`;
                             ///< 0 for a campaign without end
-  std::uint64_t first = 0;  ///< in a campaign without end: after how many cases this shard stops; 0 if never
+  /// In a campaign without end: the number of cases after which this shard stops; 0 if the shard never stops.
+  std::uint64_t first = 0;
   Comparison comparison;
   bool shrink = true;  ///< whether kept findings are shrunk
   int jobs = 1;
@@ -29,25 +31,27 @@ struct CampaignPlan {
   std::uint64_t shards = 1;
   Statistics before = {};                ///< the counters of the cases that earlier runs of this shard
                                          ///< decided
-  std::vector<Finding> findings_before;  ///< findings that earlier runs kept
+  std::vector<Finding> findings_before;  ///< the findings that earlier runs of this shard kept
 };
 
 struct CampaignProgress {
   std::uint64_t cases = 0;         ///< decided in this shard
-  std::uint64_t cases_before = 0;  ///< cases decided before the campaign was resumed
-  std::uint64_t of = 0;            ///< all cases of this shard; 0 for a campaign without end
-  std::size_t to_shrink = 0;       ///< findings that are still to be shrunk
+  std::uint64_t cases_before = 0;  ///< the cases that this shard decided before the campaign was resumed
+  std::uint64_t of = 0;            ///< the number of all cases of this shard; 0 for a campaign without end
+  std::size_t to_shrink = 0;       ///< the number of findings that are still to be shrunk
   bool is_asking = true;           ///< false when only shrinking is left
-  bool complete = false;           ///< whether this shard is completed, and all findings are shrunk
+  /// Whether all cases of this shard are decided, and all findings are shrunk.
+  bool complete = false;
   std::chrono::duration<double> elapsed{};
 };
 
-/// Receives the results of further cases several times a second, in order. A result has the first findings of
-/// each signature and class (FirstFindings), and the findings that have been shrunk since the last result.
-/// Returns false to end the campaign.
+/// Receives the results of further cases several times a second, in the order of the cases. A result also has
+/// the first findings of each signature and class (FirstFindings), and the findings that have been shrunk
+/// since the last result. Returns false to end the campaign.
 using CampaignSink = std::function<bool(TrialResult&&, const CampaignProgress&)>;
 
-/// Runs a plan until it is done, the sink ends it or `stop` is due; returns the progress.
+/// Runs a campaign until its plan is done, the sink ends it, or `stop` is due. Returns the campaign's
+/// progress.
 CampaignProgress run_campaign(const CampaignPlan& plan, const Subjects& subjects, const CampaignSink& sink,
                               const Stop& stop);
 

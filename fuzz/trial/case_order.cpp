@@ -15,8 +15,8 @@ std::uint64_t cases_of_first_round(const CampaignPlan& plan) {
   return sum;
 }
 
-/// Divides the cases of a family into units of `block_cases`, numbered from 0. The rounds have 1, 2, 4 units
-/// and so on, until a round has `largest()` units. All later rounds have this many units.
+/// Divides the cases of a family into units of `block_cases`, numbered from 0. The first rounds have 1, 2, 4
+/// units of the family and so on, until a round has `largest()` units. All later rounds have this many units.
 class Rounds {
  public:
   explicit Rounds(const CampaignPlan& plan) {
@@ -27,7 +27,7 @@ class Rounds {
     doublings_ = std::min<std::uint64_t>(doublings_, std::bit_width(std::max<std::uint64_t>(fitting, 1)) - 1);
   }
 
-  /// The number of the unit with which a round begins.
+  /// The number of the first unit in a round.
   [[nodiscard]] std::uint64_t start(std::uint64_t round) const {
     if (round < doublings_) return (std::uint64_t{1} << round) - 1;
     return largest() * (round - doublings_ + 1) - 1;
@@ -53,7 +53,7 @@ std::uint64_t share_of(const CampaignPlan& plan, std::size_t f) {
   for (std::size_t i = 0; i < f; ++i) before += plan.families[i].block_cases;
   const std::uint64_t all = cases_of_first_round(plan);
   if (all == 0) return 0;
-  // cases * part / all, without overflow
+  // computes cases * part / all, without overflow
   const auto dealt = [&](std::uint64_t part) {
     return plan.cases / all * part + plan.cases % all * part / all;
   };
@@ -103,8 +103,8 @@ std::uint64_t cases_of_shard(const CampaignPlan& plan) {
 
 namespace {
 
-/// The index of the query that is case `number` of the family. Only queries of the kinds that are asked are
-/// cases.
+/// The index of the query that is case `number` of the family. Only queries of those kinds that the campaign
+/// asks are cases.
 std::uint64_t index_of_case(const Family& family, std::uint64_t number) {
   if (!family.only) return number;
   return family.kinds.size() * number + (family.kinds.front() == *family.only ? 0 : 1);
@@ -184,7 +184,7 @@ std::optional<CaseBlock> CasesOfShard::next(const Pace& pace) {
 
 std::optional<CaseBlock> CasesOfShard::next_block() {
   if (plan_.families.empty()) return std::nullopt;
-  // The campaign is over if a whole round is empty.
+  // The campaign is over if the blocks of all families in a round are empty.
   for (std::size_t empty = 0; empty <= plan_.families.size(); ++empty) {
     if (family_ == plan_.families.size()) {
       family_ = 0;

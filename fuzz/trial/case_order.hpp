@@ -28,7 +28,7 @@ struct CaseBlock {
   [[nodiscard]] std::uint64_t cases() const { return last - first; }
 };
 
-/// The cases of one kind in a block. Throws Stopped when `stop` is due.
+/// The cases of a block whose queries have this kind. Throws Stopped when `stop` is due.
 Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, const Stop& stop);
 
 /// The number of cases in a plan's shard. For a campaign without end, returns plan.first.
@@ -41,10 +41,11 @@ std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std
 /// The cases of a plan's shard, in order. The plan must outlive this object.
 class CasesOfShard {
  public:
-  /// Begins after the first `done` cases.
+  /// Begins with the case that follows the first `done` cases of the shard.
   CasesOfShard(const CampaignPlan& plan, std::uint64_t done);
 
-  /// The next cases, all in one block; at most as many as `pace` chooses. Nothing when all cases are done.
+  /// The next cases, all of them in one block, and at most as many as `pace` chooses. Returns nothing when
+  /// all cases of the shard are done.
   std::optional<CaseBlock> next(const Pace& pace);
 
  private:

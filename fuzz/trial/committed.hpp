@@ -8,7 +8,7 @@
 namespace nearmiss {
 
 /// The query with its motion replaced by the motion from x0 to x0 + time (x1 - x0). Each operation on a
-/// coordinate is rounded to double, or to float if `in_float`. Nothing if a coordinate overflows.
+/// coordinate is rounded to double, or to float if `in_float`. Returns nothing if a coordinate overflows.
 std::optional<Query> committed_step(const Query& query, double time, bool in_float);
 
 /// Where a step has contact. `touches`: contact before the end of the step; for h > 0, a distance below h

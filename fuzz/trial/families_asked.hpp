@@ -20,7 +20,7 @@ namespace nearmiss {
 std::vector<Family> families_asked(const std::vector<std::string>& names, std::span<const Kind> asked,
                                    std::string_view separation = {});
 
-/// Throws Error if some subject would be asked no query at all.
+/// Throws Error if the trial would ask some subject no query at all.
 void expect_all_asked(const Subjects& subjects, std::span<const Family> families);
 
 }  // namespace nearmiss

@@ -52,7 +52,7 @@ std::optional<TimeError> Judge::time_error(const Verdict& verdict, Truth& truth)
                   .stuck = verdict.time == 0 && sign < 0};
   (sign > 0 ? error.after : error.early) = magnitude;
   error.travelled = error.early * truth.relative_speed();
-  if (!promised || error.late || verdict.time == 0) return error;  // at time 0, the step has no motion
+  if (!promised || error.late || verdict.time == 0) return error;  // a step that ends at time 0 has no motion
   if (const auto step = committed_step(truth.query(), verdict.time, subject_.rounds())) {
     const StepEnd end = end_of(*step);
     error.committed = end == StepEnd::touches;

@@ -28,8 +28,8 @@ class Judge {
   explicit Judge(const Subject& subject);
 
   /// The length that is the unit for the distance of a false positive: the subject's claimed bound, or wang's
-  /// bound for the same pair if the subject claims none. Returns the fault if the subject fails to give its
-  /// bound.
+  /// bound for the same pair if the subject claims none. If the subject fails to give its bound, returns the
+  /// subject's fault instead.
   [[nodiscard]] BoundAnswer ask_unit(const Query& query) const;
 
   /// Compares an answer with the truth about the query. If the subject rounds coordinates, `truth` must be
@@ -43,7 +43,8 @@ class Judge {
   [[nodiscard]] Outcome judge(const Verdict& verdict, Truth& truth, double least_kept = 0,
                               const std::optional<BoundAnswer>& known = {}) const;
 
-  /// Whether judge() needs the unit: the answer is a false positive, but not "cannot tell".
+  /// Whether judge() needs the unit of ask_unit(). It needs the unit if the answer is a false positive, but
+  /// not "cannot tell".
   [[nodiscard]] static bool needs_unit(const Verdict& verdict, const Decision& decision);
 
   /// Asks the subject about a query. Returns how the subject fails, or nothing if it does not fail. Throws
@@ -54,15 +55,15 @@ class Judge {
 
  private:
   /// The outcome of an answer, and the unit in which to measure the distance of a false positive. The outcome
-  /// does not contain this distance. There is a unit only if the distance must be measured: if needs_unit()
-  /// holds, and ask_unit() gives a finite unit.
+  /// does not contain this distance. The unit is empty unless the distance must be measured, that is, unless
+  /// needs_unit() holds and ask_unit() gives a finite unit.
   [[nodiscard]] std::pair<Outcome, std::optional<double>> outcome_of(
       const Verdict& verdict, Truth& truth, const std::optional<BoundAnswer>& known = {}) const;
-  /// The error of a true positive's time of impact; nothing if the subject gives no time.
+  /// The error of a true positive's time of impact; nothing if the subject's answer has no time.
   [[nodiscard]] std::optional<TimeError> time_error(const Verdict& verdict, Truth& truth) const;
 
   const Subject& subject_;
-  std::unique_ptr<Subject> wang_;  // null if the subject claims a bound, which is then the unit
+  std::unique_ptr<Subject> wang_;  // null if the subject claims a bound, because that bound is then the unit
 };
 
 /// The failure that an outcome shows (reports/statistics/failure.hpp). Returns nothing if the outcome shows

@@ -54,8 +54,8 @@ void exchange(Numbers& x, std::size_t v, std::size_t w) {
 
 /// Scales all numbers together, or the coordinates along each axis by themselves, so that their largest
 /// magnitude is in [2^exponent, 2^(exponent + 1)), and rounds them to integers. The separation is scaled only
-/// together with all coordinates, and becomes at least 1 if it is positive, because h = 0 would ask another
-/// question.
+/// together with all coordinates, and becomes at least 1 if it is positive, because a query with h = 0 would
+/// ask for contact, which is another question.
 void round(Numbers& x, int exponent, bool each_axis) {
   const bool has_separation = x[separation] != 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -87,9 +87,9 @@ Neighbourhood round_all(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Sets all coordinates along an axis to 0, or subtracts one number from those at t = 0, and another one from
-/// those at t = 1. Each number is 0, or a vertex's coordinate along the axis at t = 0 or t = 1. An exact
-/// subtraction keeps every contact.
+/// Sets all coordinates along an axis to 0, or subtracts one number from the coordinates along this axis at t
+/// = 0, and another number from those at t = 1. Each number is 0, or a vertex's coordinate along the axis at
+/// t = 0 or t = 1. An exact subtraction keeps every contact.
 Neighbourhood move_axes(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -106,7 +106,8 @@ Neighbourhood move_axes(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Subtracts a multiple of one axis from another axis, so that a coordinate becomes 0.
+/// Subtracts a multiple of the coordinates along one axis from the coordinates along another axis, so that
+/// one coordinate becomes 0.
 Neighbourhood shear_axes(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t k = 0; k < 3; ++k)
@@ -166,9 +167,9 @@ Neighbourhood change_times(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Divides some numbers of the query: all, those along an axis, those of a vertex, or those of a vertex along
-/// an axis. The divisor is -1, 3, 5, the magnitude of one of the divided numbers, or a power of two between 1
-/// and such a magnitude.
+/// Divides some numbers of the query: all numbers, the coordinates along an axis, the coordinates of a
+/// vertex, or the coordinates of a vertex along an axis. The divisor is -1, 3, 5, the magnitude of one of the
+/// divided numbers, or a power of two between 1 and such a magnitude.
 Neighbourhood scale(const Numbers& numbers) {
   std::vector<Set> sets{everything};
   for (std::size_t k = 0; k < 3; ++k) sets.push_back(axis_set(k));
@@ -187,7 +188,7 @@ Neighbourhood scale(const Numbers& numbers) {
   return changes;
 }
 
-/// The numbers of the same magnitude as number i.
+/// The numbers that have the same magnitude as number i.
 Set alike(const Numbers& x, std::size_t i) {
   Set set = 0;
   for (std::size_t j = 0; j < x.size(); ++j)
@@ -220,8 +221,8 @@ Alternatives replacements(const Numbers& numbers, Set set) {
   return changes;
 }
 
-/// Simplifies numbers of one magnitude: all of them, those along one axis, those of one vertex along one
-/// axis, or a single number.
+/// Simplifies numbers of one magnitude: all numbers of this magnitude, those along one axis, those of one
+/// vertex along one axis, or only one of them.
 Neighbourhood change_numbers(const Numbers& x) {
   Neighbourhood changes;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -231,7 +232,7 @@ Neighbourhood change_numbers(const Numbers& x) {
     Set last = 0;
     for (const Set within : {everything, of_axis, of_path, only(i)}) {
       const Set set = alike(x, i) & within;
-      if (set != last && set % only(i) == 0)  // take each set once, at its first member
+      if (set != last && set % only(i) == 0)  // take each set of numbers only once, at its first member
         changes.push_back(replacements(x, set));
       last = set;
     }

@@ -9,7 +9,8 @@
 
 namespace nearmiss {
 
-/// A change of a query's numbers. It may leave the numbers as they are, or make the query less simple.
+/// A change of a query's numbers. A change may also leave the numbers as they are, or make the query less
+/// simple.
 using Change = std::function<void(Numbers&)>;
 
 /// Changes of which the shrinker takes at most one: the first that simplifies the query and leaves it

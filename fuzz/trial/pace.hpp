@@ -1,4 +1,4 @@
-// How many cases to try at once.
+// Chooses how many cases a trial decides at once.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class Pace {
   /// A slice has at most `most` cases.
   explicit Pace(std::size_t most = usual) : most_(static_cast<double>(most)) {}
 
-  /// The number of cases of a family to try next.
+  /// The number of cases of a family that a trial should decide next.
   [[nodiscard]] std::size_t cases(const std::string& family) const {
     const std::lock_guard lock(mutex_);
     const auto known = cases_.find(family);

@@ -11,7 +11,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The length, in machine words, of the integers that exact arithmetic with a query's numbers needs.
+/// The length, in machine words, of the integers that exact arithmetic needs to compute with a query's
+/// numbers.
 int words(const Numbers& x) {
   const auto all = magnitudes(x);
   if (all.empty()) return 1;
@@ -53,8 +54,9 @@ class Shrinker {
     return query;
   }
 
-  /// Tries the changes in their order, and takes each one that makes the query simpler and leaves it failing.
-  /// Asks about many changes in a batch; if no query of a batch fails, the next batch is larger.
+  /// Tries the changes of a neighbourhood in their order. Takes each change that makes the query simpler and
+  /// leaves the query failing. Asks about many changes in a batch; if no query of a batch fails, the next
+  /// batch is larger.
   void explore(const Neighbourhood& changes) {
     constexpr std::size_t largest_batch = 64;
     std::size_t size = 1;
@@ -74,8 +76,8 @@ class Shrinker {
     }
   }
 
-  /// At most `size` candidates, from the place (`entry`, `alternative`) on. Moves the place behind the last
-  /// of these candidates.
+  /// Returns at most `size` candidates, from the place (`entry`, `alternative`) of the neighbourhood on.
+  /// Moves this place behind the last candidate that it returns.
   std::vector<Candidate> candidates(const Neighbourhood& changes, std::size_t& entry,
                                     std::size_t& alternative, std::size_t size) const {
     std::vector<Candidate> batch;
@@ -117,7 +119,7 @@ class Shrinker {
   Numbers best_;
   Complexity complexity_;
   const FindFailing& find_failing_;
-  long work_ = 200000;  ///< the remaining budget, in words of exact arithmetic
+  long work_ = 200000;  ///< the work that shrinking may still do, in words of exact arithmetic
 };
 
 }  // namespace

@@ -51,7 +51,8 @@ void Shrinking::add(const Finding& finding, std::size_t nth) {
     waiting_.emplace(Priority{finding.query_class, nth, number}, Task{number, finding});
   }
   has_changed_.notify_all();
-  if (threads_.empty()) start();  // if the system has no thread left, a later call tries again
+  // If the system cannot start a thread now, a later call of add() tries again.
+  if (threads_.empty()) start();
 }
 
 std::map<std::size_t, Finding> Shrinking::take() {
@@ -87,7 +88,7 @@ void Shrinking::shrink(Task& task) {
     const std::lock_guard lock(mutex_);
     --under_way_;
     shrunk_.emplace(task.number, std::move(task.finding));
-  } catch (const Stopped&) {  // the finding stays as it is
+  } catch (const Stopped&) {  // the finding stays unshrunk
   } catch (...) {
     const std::lock_guard lock(mutex_);
     if (!failure_) failure_ = std::current_exception();
@@ -137,7 +138,7 @@ void Shrinking::finish(const std::function<void()>& report) {
   has_changed_.notify_all();
   while (threads_.size() < static_cast<std::size_t>(jobs_) && start()) {
   }
-  if (threads_.empty()) {  // the system has no thread left
+  if (threads_.empty()) {  // the system could not start any thread
     ++working_;
     work();
   }

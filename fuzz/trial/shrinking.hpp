@@ -37,11 +37,12 @@ class Shrinking {
   void add(const Finding& finding) { add(finding, first_.count(finding)); }
 
   /// Keeps in a result only the first findings of each signature and class (FirstFindings), gives them
-  /// certificates, and queues them to be shrunk. Adds the findings that have been shrunk since
-  /// the last call. Throws what shrinking threw.
+  /// certificates, and queues them to be shrunk. Adds the findings that have been shrunk since the last call.
+  /// If shrinking threw an exception, this function throws it again.
   void sift(TrialResult& result);
 
-  /// The findings that have been shrunk since the last call, by number. Throws what shrinking threw.
+  /// The findings that have been shrunk since the last call. The key is the finding's number. If shrinking
+  /// threw an exception, this function throws it again.
   [[nodiscard]] std::map<std::size_t, Finding> take();
 
   /// The number of findings that are still to be shrunk.
@@ -53,7 +54,7 @@ class Shrinking {
 
  private:
   using Clock = Stop::Clock;
-  /// `nth` is the finding's number among those of its signature and class.
+  /// `nth` is the number of the finding among the findings of the same signature and class.
   void add(const Finding& finding, std::size_t nth);
   /// The order of shrinking: by class, then by number among the findings of the same signature and class,
   /// then by number among all findings.
@@ -63,9 +64,10 @@ class Shrinking {
     Finding finding;
   };
 
-  /// Starts a thread that calls work(); returns false if the system has no thread left.
+  /// Starts a thread that calls work(); returns false if the system cannot start another thread.
   bool start();
-  /// Shrinks the waiting findings, and waits for more unless all queries have been asked.
+  /// Shrinks the findings that wait to be shrunk. Then waits for more findings, unless all queries of the
+  /// trial have been asked.
   void work();
   void shrink(Task& task);
   /// While queries are being asked, waits until the shrinking thread has used no more than a tenth of all

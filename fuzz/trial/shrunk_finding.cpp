@@ -28,7 +28,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Whether a new process may be needed after a fault.
+/// Whether the fault in a verdict may have ended the subject's process, so that the next query may need a new
+/// process.
 bool ends_process(const Verdict& verdict) {
   switch (verdict.fault) {
     case Fault::crash:
@@ -43,9 +44,9 @@ bool ends_process(const Verdict& verdict) {
   }
 }
 
-/// Refuses further queries when a limit is reached, and after a query over the subject's time limit. A
-/// subject that has exceeded its time limit once is asked one query at a time, so that the queries after a
-/// slow one are not asked in vain.
+/// Passes queries on to a subject. Refuses further queries when a limit (ShrinkLimits) is reached, and after
+/// a query on which the subject exceeds its time limit. A subject that has exceeded its time limit once is
+/// asked one query at a time, so that it is not asked about the queries after a slow query in vain.
 class Limited final : public ForwardingSubject {
   /// Calls `ask`, which asks the subject, and returns its answer. This uses up the work of one call and of
   /// `queries` queries. Throws Error if a limit is reached.
@@ -97,8 +98,8 @@ class Limited final : public ForwardingSubject {
   std::atomic<bool>& has_been_slow_;
 };
 
-/// Whether an answer can be a failure of this kind. A reported collision can be a fault, too, namely a false
-/// positive for which the subject gives an invalid bound.
+/// Whether an answer can be a failure of this kind. A verdict that reports a collision can be a fault as
+/// well: a false positive for which the subject gives an invalid bound.
 bool can_be(Finding::What what, const Verdict& verdict) {
   const bool is_fault = verdict.fault != Fault::none;
   switch (what) {
@@ -114,7 +115,7 @@ bool can_be(Finding::What what, const Verdict& verdict) {
   }
 }
 
-/// Finds queries on which the subject fails in one given way.
+/// Finds queries on which the subject has a given failure.
 class SameFailure {
  public:
   SameFailure(Failure failure, const Subject& subject, std::function<void()> check)
@@ -127,8 +128,8 @@ class SameFailure {
   /// object.
   void only_since(const Subject& before) { before_.emplace(before); }
 
-  /// The first query that fails. Asks about all queries at once or, if each query may end a process, about a
-  /// few at a time.
+  /// The index of the first query on which the subject has the given failure. Asks the subject about all
+  /// queries at once. But if each query may end the subject's process, asks about a few queries at a time.
   std::optional<std::size_t> operator()(std::span<const Query> queries) const {
     const std::size_t at_once = failure_.what == Finding::What::fault ? 4 : queries.size();
     for (std::size_t first = 0; first < queries.size(); first += at_once) {
@@ -168,14 +169,16 @@ class SameFailure {
 
 }  // namespace
 
-/// A subject, and what is known about its failures.
+/// A subject, and what is known about its failures: whether it has been slow, and on which small queries it
+/// fails.
 class FindingShrinker::OfSubject {
  public:
   OfSubject(const Subject& subject, const ShrinkLimits& limits) : subject_(subject), limits_(limits) {}
 
   [[nodiscard]] const std::string& name() const { return subject_.name(); }
 
-  /// `before` is the version of the CCD that does not fail; null if there is none.
+  /// `before` is the earlier version of the CCD, which does not have this failure; null if no such version is
+  /// known.
   void shrink(Finding& finding, const OfSubject* before, const std::function<void()>& check) const {
     const Query simplest = shrunk_of(finding, std::nullopt, before, check);
     const NoMoreExotic queries{finding.query_class, exoticness(finding.query, finding.query_class)};
@@ -195,8 +198,9 @@ class FindingShrinker::OfSubject {
   }
 
  private:
-  /// The simplest query that fails as the finding does. If `among` is given, only queries that it accepts
-  /// count. If `before` is not null, that version must answer the query rightly.
+  /// The simplest query on which the subject fails with the signature of the finding. If `among` is given,
+  /// the query must be one that `among` accepts. If `before` is not null, that version of the CCD must answer
+  /// the query rightly.
   [[nodiscard]] Query shrunk_of(const Finding& finding, const std::optional<NoMoreExotic>& among,
                                 const OfSubject* before, const std::function<void()>& check) const {
     const Limited limited = limited_subject();
@@ -231,8 +235,8 @@ class FindingShrinker::OfSubject {
     return *known;
   }
 
-  /// Replaces a value for the original query by the value for the shrunk query, unless the latter is missing
-  /// (NaN or "").
+  /// Replaces a value of the finding, which belongs to the original query, by the value for the shrunk query.
+  /// Does nothing if the value for the shrunk query is missing (NaN or "").
   static void set(double& number, double of_shrunk) {
     if (!std::isnan(of_shrunk)) number = of_shrunk;
   }

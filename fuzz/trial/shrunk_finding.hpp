@@ -18,13 +18,15 @@ namespace nearmiss {
 
 /// How much work and time the search for the simplest query may demand of a subject.
 struct ShrinkLimits {
-  static constexpr std::int64_t of_call = 10;       ///< the work of a call, in addition to its queries
+  static constexpr std::int64_t of_call = 10;  ///< the work of a call, in addition to the work of its queries
   static constexpr std::int64_t of_process = 1000;  ///< the work of a fault that may end the process
 
-  /// The limit on the work of all queries, calls and ended processes together. A query has the work 1. The
-  /// limit does not depend on time, so it ends the search at the same query on every machine.
+  /// The limit on the work of all queries, calls and ended processes together. Each query counts as a work of
+  /// 1. The work does not depend on run times, so this limit ends the search at the same query on every
+  /// machine.
   std::int64_t work = 1'200'000;
-  /// The time limit for all answers together. Only a slow subject reaches it.
+  /// The limit on the time that all answers of the subject take together. Only a slow subject reaches this
+  /// limit.
   std::chrono::milliseconds time = std::chrono::minutes(1);
 };
 
@@ -36,7 +38,7 @@ inline constexpr ShrinkLimits limits_in_campaign{.work = 120'000, .time = std::c
 /// Shrinks findings of some subjects. Many threads may use a FindingShrinker at once.
 class FindingShrinker {
  public:
-  /// Called between two calls of the subject; may wait.
+  /// A function that is called now and then, between two calls of the subject. The function may wait.
   using Rest = std::function<void()>;
 
   /// The subjects and `stop` must outlive this object.
@@ -49,9 +51,10 @@ class FindingShrinker {
   /// query that has the finding's class and is no more exotic than the finding's query: for example, vertices
   /// coincide only if vertices of the finding's query do. If the finding is `broken_since` an earlier version
   /// of the CCD, that version answers both queries rightly. The result depends only on the finding and the
-  /// subjects, unless the time limit ends a search. A query that the subject refuses does not fail. If the
-  /// oracle contradicts a recorded truth, the finding is not shrunk, because the truth is recorded only for
-  /// its own query. When Stop::grace has passed since a stop, throws Stopped and leaves the finding as it is.
+  /// subjects, unless the time limit ends a search. A query that the subject refuses does not count as a
+  /// failure. If the oracle contradicts a recorded truth, the finding is not shrunk, because the truth is
+  /// recorded only for its own query. When Stop::grace has passed since a stop, throws Stopped and leaves the
+  /// finding as it is.
   void shrink(Finding& finding, const Rest& rest = {}) const;
 
  private:

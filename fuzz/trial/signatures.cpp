@@ -17,7 +17,7 @@ std::string signature(Kind kind, std::string_view features) {
   return std::string(short_name(kind)).append(" ").append(features);
 }
 
-/// The text with each number replaced by #, cut to a readable length.
+/// The text with each number in it replaced by #. The result is cut to a readable length.
 std::string without_numbers(std::string_view text) {
   constexpr std::size_t most = 80;
   std::string result;

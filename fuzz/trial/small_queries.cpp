@@ -69,7 +69,8 @@ bool is_listed(const Integers& x, const Symmetry& symmetry) {
   return true;
 }
 
-/// Whether no symmetric copy comes before x. Copies that the list cannot contain do not count.
+/// Whether no symmetric copy comes before x. Copies with the number -2 do not count, because the list cannot
+/// contain them.
 bool is_first_copy(const Integers& x, const std::vector<Symmetry>& symmetries) {
   return std::none_of(symmetries.begin(), symmetries.end(), [&](const Symmetry& symmetry) {
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -190,7 +191,8 @@ const std::vector<SmallQuery>& small_queries(Kind kind, bool apart) {
 
 SmallFailures::SmallFailures(const Subject& subject, Kind kind, bool apart,
                              const std::function<void()>& check) {
-  constexpr std::size_t largest_batch = 64;  // first batches are smaller: a query may end the process
+  // The first batches are smaller, because each query may end the subject's process.
+  constexpr std::size_t largest_batch = 64;
   const Judge judge(subject);
   const std::span list(small_queries(kind, apart));
   std::size_t first = 0;

@@ -17,30 +17,30 @@
 
 namespace nearmiss {
 
-/// A query over small integers, with its truth.
+/// A query over small integers, and whether it is a collision.
 struct SmallQuery {
   Query query;
   Complexity complexity;
   bool collision = false;
 };
 
-/// All queries of a kind over -1, 0, 1 and 2 with at most three nonzero numbers (Complexity::numbers), and
-/// those of 4096 random queries that have more nonzero numbers. The simplest queries come first. The list is
-/// empty for vertex-vertex and vertex-edge queries. If queries with at most three such numbers differ only by
-/// the order or the direction of axes, by the numbering of vertices or by the direction of time, only one of
-/// them is in the list. With `apart`, the list has each query with h = 1, 2, 1/2 and 1/4, unless the smallest
-/// distance is exactly h. The first call makes the list.
+/// All queries of a kind over -1, 0, 1 and 2 with at most three nonzero numbers (Complexity::numbers). The
+/// list also has those of 4096 random queries that have more than three nonzero numbers. The simplest queries
+/// come first. The list is empty for vertex-vertex and vertex-edge queries. If queries with at most three
+/// such numbers differ only by the order or the direction of axes, by the numbering of vertices or by the
+/// direction of time, only one of them is in the list. With `apart`, the list has each query with h = 1, 2,
+/// 1/2 and 1/4, unless the smallest distance is exactly h. The first call makes the list.
 const std::vector<SmallQuery>& small_queries(Kind kind, bool apart = false);
 
 /// The small queries of a kind on which a subject fails.
 class SmallFailures {
  public:
-  /// Asks the subject about small_queries(kind, apart), in batches, until it refuses to answer. Calls `check`
-  /// between batches, and throws what `check` throws.
+  /// Asks the subject about small_queries(kind, apart), in batches, until the subject refuses to answer.
+  /// Calls `check` between batches, and throws what `check` throws.
   SmallFailures(const Subject& subject, Kind kind, bool apart, const std::function<void()>& check);
 
-  /// The simplest query that fails in this way; if `among` is given, the simplest such query that `among`
-  /// accepts. Nothing if there is no such query.
+  /// The simplest small query on which the subject has this failure. If `among` is given, only queries that
+  /// `among` accepts count. Nothing if there is no such query.
   [[nodiscard]] std::optional<SmallQuery> simplest(const Failure& failure,
                                                    const std::optional<NoMoreExotic>& among = {}) const;
 

@@ -22,7 +22,7 @@ inline bool is_set_aside(const Counts& counts) { return counts.without_answer(Fa
 
 /// What earlier cases show about one subject, for one kind and family.
 struct Known {
-  std::uint64_t slow = 0;  ///< the number of queries over the time limit
+  std::uint64_t slow = 0;  ///< the number of queries on which the subject exceeded its time limit
 
   /// A false positive is kept as one of the farthest only if its ratio (Truth::Distance::ratio, in the unit
   /// of Judge::ask_unit()) is at least this number. The ratio of any other false positive need not be
@@ -32,7 +32,8 @@ struct Known {
   [[nodiscard]] bool is_set_aside() const { return slow >= most_slow; }
 };
 
-/// What is known from the cases that count so far. Many threads use a SoFar at once.
+/// What is known about each subject from the cases that have been counted so far. Many threads may use a
+/// SoFar at once.
 class SoFar {
  public:
   [[nodiscard]] Known of(const CountsKey& key) const {

@@ -90,7 +90,7 @@ std::uint64_t hash_of(const Query& query) {
   return bits(0) ^ std::rotl(bits(13), 32);
 }
 
-/// A sample of the queries that a subject answered, the last one first.
+/// A sample of the queries that a subject answered. The queries are in the reverse order of the batch.
 struct Sample {
   std::vector<std::size_t> numbers;  ///< in the batch
   std::vector<Query> queries;
@@ -122,10 +122,10 @@ BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed
   return {};
 }
 
-/// Asks the subject about a sample once more: fewer queries at once, in another order. If the second decision
-/// differs from the first, the verdict becomes the fault `inconsistent`; if the second answer is a fault,
-/// this fault replaces the first answer. Times of impact may differ, because rounding may depend on a query's
-/// place in a vector.
+/// Asks the subject about a sample of the queries once more: this call has fewer queries, in another order.
+/// If the second decision differs from the first, the verdict becomes the fault `inconsistent`; if the second
+/// answer is a fault, this fault replaces the first answer. Times of impact may differ, because rounding may
+/// depend on a query's place in a vector.
 void ask_again(const Subject& subject, const Sample& sample, bool timed, std::vector<Verdict>& verdicts) {
   std::vector<Verdict> again;
   ask(subject, sample.queries, timed, again);
@@ -136,8 +136,8 @@ void ask_again(const Subject& subject, const Sample& sample, bool timed, std::ve
   }
 }
 
-/// Decides a batch, and a sample of its queries a second time. If the batch is timed, also measures the time
-/// of the whole batch, and of each query in the sample.
+/// Asks the subject about all queries of a batch, and about a sample of them a second time. If the batch is
+/// timed, also measures the time of the whole batch, and of each query in the sample.
 std::vector<Verdict> decide_all(const Subject& subject, const Batch& batch, SubjectTimes& times) {
   std::vector<Verdict> verdicts;
   const bool timed = batch.timed && !batch.queries.empty();
@@ -210,7 +210,8 @@ class Judging {
 
  private:
   /// Counts the oracle's decision, and compares it with a recorded truth and, for sampled queries, with all
-  /// methods. Checks the certificate of a recorded truth if that is demanded.
+  /// methods. If `certify_truths` is set and the recorded truth is right, also checks that a certificate
+  /// proves the oracle's decision.
   void try_oracle(std::size_t i, Truth& truth, OracleCounts& counts) {
     ++counts.queries;
     counts.collisions += truth.collision() ? 1 : 0;
@@ -306,18 +307,19 @@ class Judging {
   std::vector<Known> known_;  // by subject: what is known before the next query
   const Verdicts& answers_;   // by subject and query
   TrialResult result_;
-  std::vector<Counts*> counts_;  // by subject, in `result_`; null if it cannot be asked
-  std::vector<Judge> judges_;    // by subject
-  std::vector<Judged> judged_;   // by subject
+  // By subject, in `result_`; null if the subject cannot be asked about the batch.
+  std::vector<Counts*> counts_;
+  std::vector<Judge> judges_;                                    // by subject
+  std::vector<Judged> judged_;                                   // by subject
   std::vector<std::vector<std::optional<BoundAnswer>>> bounds_;  // by subject
   std::vector<Decision> decisions_;                              // by query
-  std::vector<bool> near_;                                       // by query: near_bounds(), or empty
+  std::vector<bool> near_;            // by query: the result of near_bounds(), or empty
   std::vector<std::string> factors_;  // the values with which the judged query was made, or empty
   VersionComparison versions_;
 };
 
-/// Checks all coordinates. This also fetches the queries from memory, so that no subject's time includes the
-/// fetching.
+/// Throws Error if a coordinate of the batch is not finite. This check also fetches the queries from memory,
+/// so that the measured time of no subject includes the fetching.
 void check_coordinates(const Batch& batch) {
   for (std::size_t i = 0; i < batch.queries.size(); ++i)
     if (!is_finite(batch.queries[i]))

@@ -33,7 +33,7 @@ struct Batch {
   std::string family = {};  ///< the name under which the queries are counted
   std::vector<Query> queries = {};
   std::vector<std::optional<bool>> truths =
-      {};  ///< recorded truths, or empty; for a tie, either value is right
+      {};  ///< the recorded truths of the queries, or empty; if a query is a tie, either truth is right
 
   /// Query i has the number first_number + step * i in its family or stream. Samples of queries are chosen by
   /// these numbers.
@@ -41,7 +41,7 @@ struct Batch {
   bool timed = true;         ///< whether to time the subjects
   bool compare_all = false;  ///< whether to compare all methods of the oracle on every query
 
-  /// Returns the origin of query i of the batch. Called only for kept queries.
+  /// Returns the origin of query i of the batch. This function is called only for queries that are kept.
   std::function<std::string(std::size_t)> provenance = {};
   /// If set, returns the place of query i in the order of a campaign. If not set, findings are passed on in
   /// the order of the batches.
@@ -61,19 +61,19 @@ struct Batch {
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
-  /// Findings that were passed on earlier, and have been shrunk since. The key is the number of the finding
-  /// among all findings.
+  /// Findings that were passed on to the sink earlier, and have been shrunk since then. The key is the number
+  /// of the finding among all findings.
   std::map<std::size_t, Finding> shrunk = {};
 
   void merge(TrialResult&& other);
 };
 
-/// Receives results while the trial runs. Their order does not depend on the threads.
+/// Receives results while the trials run. The order of the results does not depend on the threads.
 using TrialSink = std::function<void(TrialResult&&)>;
 
 /// Selects the queries on which all methods of the oracle are compared, and the versions of a CCD to compare.
 struct Comparison {
-  /// Queries that the filter leaves undecided are sampled this many times as often as others.
+  /// A query that the filter leaves undecided is sampled this many times as often as other queries.
   static constexpr std::uint64_t more_of_undecided = 64;
   /// A query counts as decided near the filter's bounds if the filter, in double and with all error bounds
   /// multiplied by this factor, would not decide it in the same stage.

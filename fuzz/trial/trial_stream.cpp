@@ -6,7 +6,8 @@ namespace nearmiss {
 
 namespace {
 
-constexpr std::size_t queries_of_a_thread = 4 * Pace::usual;  // so few that no thread waits long for others
+// So few queries that no thread waits long for other threads.
+constexpr std::size_t queries_of_a_thread = 4 * Pace::usual;
 
 }  // namespace
 

@@ -14,18 +14,19 @@
 namespace nearmiss {
 
 /// Collects queries into batches by kind, by family, and by whether they have a separation, and runs the
-/// trials. It stores only a few batches at any time. Subjects are not timed, because a few queries say
-/// nothing about a subject's speed.
+/// trials. A TrialStream stores only a few batches at any time. Subjects are not timed, because a few queries
+/// say nothing about a subject's speed.
 class TrialStream {
  public:
   explicit TrialStream(Trials& trials) : trials_(trials) {}
 
   /// Adds a query; returns false after a request to stop. `provenance` is called only if the query is kept,
-  /// and never after finish(). Throws Error as hold_trial does.
+  /// and never after finish(). Throws Error if a coordinate is not finite, as hold_trial does.
   bool add(const std::string& family, const Query& query, std::optional<bool> truth,
            std::function<std::string()> provenance);
 
-  /// Decides the remaining queries. After a request to stop, omits them.
+  /// Runs the trials of the queries that have not been on trial yet. After a request to stop, omits these
+  /// trials.
   void finish();
 
  private:
@@ -39,7 +40,7 @@ class TrialStream {
   Trials& trials_;
   std::map<std::tuple<std::string, Kind, bool>, Pending> pending_;  // by family, kind and whether h > 0
   std::vector<Pending> full_;
-  std::uint64_t batches_ = 0;  ///< number of batches so far
+  std::uint64_t batches_ = 0;  ///< the number of batches that have been made so far
 };
 
 }  // namespace nearmiss

@@ -52,8 +52,8 @@ std::size_t largest_batch_of(const Subjects& subjects) {
   return std::min(largest, most);
 }
 
-/// The largest number of cases in a slice: `usual`, or more if some subject is a plug-in, so that calls of
-/// its process take little of the time.
+/// The largest number of cases in a slice: `usual`, or more if some subject is a plug-in. Each call of a
+/// plug-in's process then asks about more cases, so that the calls take a smaller part of the run time.
 std::size_t largest_slice(const Subjects& subjects, std::size_t usual) {
   const auto is_plugin = [](const auto& each) { return plugin_info(*each) != nullptr; };
   return std::ranges::any_of(subjects, is_plugin) ? std::max(usual, 4 * Pace::usual) : usual;
@@ -134,8 +134,9 @@ void Trials::ask(OnItsWay& item, const Batch& batch) {
   }
 }
 
-/// What is known about each subject before the next trial of a piece of work: what was known when the work
-/// began, plus the number of queries over the time limit in the earlier trials of this work.
+/// What is known about each subject before the next trial of a piece of work: what was known about the
+/// subjects when the work began, plus the number of queries over the time limit in the earlier trials of this
+/// work.
 std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) const {
   std::vector<Known> known;
   for (const auto& subject : subjects_) {

@@ -15,7 +15,8 @@
 
 namespace nearmiss {
 
-/// Puts the subjects on trial over a batch, slice by slice. After a stop, does nothing.
+/// Puts the subjects on trial over a batch, one slice of the batch after the other. After a request to stop,
+/// does nothing.
 using AskBatch = std::function<void(const Batch&)>;
 
 /// A piece of work: one thread asks about some batches, one after the other.
@@ -50,7 +51,7 @@ class Trials {
   /// Takes over the results of earlier runs. The sink does not receive these results.
   void resume(const Statistics& before, const std::vector<Finding>& findings);
 
-  /// Does all pieces of work that next() returns, until next() returns nothing or the stop is due.
+  /// Calls next() for pieces of work, and does each of them, until next() returns nothing or the stop is due.
   void run(const std::function<std::optional<Work>()>& next);
 
   /// Adds a result that is known without a trial.

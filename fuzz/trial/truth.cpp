@@ -45,7 +45,7 @@ double Truth::relative_speed() const {
   const double B = pair_bound(query_);
   double fastest = 0;
   for (const VertexPair gap : topology(query_.kind).gaps) {
-    // Lengths in units of B, the size of the pair, do not overflow.
+    // Lengths are measured in units of B, the size of the pair, so that they do not overflow.
     const auto moved = [&](int vertex) -> Vector3<double> {
       return query_.end(vertex) / B - query_.start(vertex) / B;
     };
@@ -68,7 +68,7 @@ double Truth::precise_ratio(double unit, double ratio) const {
 }
 
 bool Truth::exceeds(double unit) const {
-  if (unit == 0) return true;  // the distance of a false positive is not 0
+  if (unit == 0) return true;  // the distance in a false positive is above the separation
   return distance_exceeds_separation_by(query_, unit);
 }
 

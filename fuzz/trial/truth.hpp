@@ -34,7 +34,8 @@ class Truth {
   /// from the decision, or if a tie or an earliest time is not proved.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
-  /// Whether both possible answers are right, because the smallest distance is exactly h > 0.
+  /// Whether the smallest distance is exactly the separation h > 0. Then both answers, collision and no
+  /// collision, are right.
   [[nodiscard]] bool is_tie() const { return decision_.is_tie; }
 
   /// The signature of the first contact.
@@ -51,14 +52,15 @@ class Truth {
   /// The smallest distance in a false positive, minus the separation, divided by a unit of length.
   struct Distance {
     double ratio;  ///< an upper bound of the quotient, in the same bin of a Histogram
-    bool exceeds;  ///< whether the quotient is above 1, decided exactly
+    bool exceeds;  ///< whether the quotient is above 1; this is decided exactly
   };
   Distance distance(double unit);
   /// Returns Distance::exceeds for this unit, without computing the ratio.
   [[nodiscard]] bool exceeds(double unit) const;
 
-  /// Returns the ratio of distance(unit) with a relative accuracy of 1/1000. `ratio` must be what
-  /// distance(unit) gave; if it is in the first bin of a Histogram, it is returned unchanged.
+  /// Returns the ratio of distance(unit) with a relative accuracy of 1/1000. `ratio` must be the ratio that
+  /// distance(unit) gave. If `ratio` is in the first bin of a Histogram, the function returns `ratio`
+  /// unchanged.
   [[nodiscard]] double precise_ratio(double unit, double ratio) const;
 
  private:

@@ -11,8 +11,8 @@ namespace nearmiss {
 
 namespace {
 
-/// A text that all versions of a CCD share: the exported name, and whether they are asked beyond their
-/// contract.
+/// A text that all versions of a CCD share: the name that their plug-ins export, and whether these subjects
+/// are asked beyond their contract.
 std::string ccd_of(const Subject& subject) {
   return innermost(subject).name() +
          std::string(subject.name().ends_with(beyond_contract) ? beyond_contract : "");

@@ -12,9 +12,9 @@
 namespace nearmiss {
 
 /// For each subject, the index of the earlier version: the first subject whose plug-in exports the same name.
-/// Nothing if this is the subject itself. A subject that is asked beyond its contract is compared only with a
-/// subject that is also asked beyond its contract. `chosen` is empty, or has the names of two subjects: the
-/// second is then compared with the first.
+/// Nothing if the subject itself is the first one with this name. A subject that is asked beyond its contract
+/// is compared only with a subject that is also asked beyond its contract. `chosen` is empty, or has the
+/// names of two subjects: the second is then compared with the first.
 std::vector<std::optional<std::size_t>> predecessors(const Subjects& subjects,
                                                      const std::vector<std::string>& chosen);
 
@@ -33,8 +33,8 @@ class VersionComparison {
   /// of the earlier version (`broken_since`). The next query then becomes the present one.
   void finish_query(std::vector<Finding>& findings);
 
-  /// Adds the counters of all queries, which are of this kind and family, to a table. Versions without a
-  /// common query get counters of 0.
+  /// Adds the counters of all queries, which are of this kind and family, to a table. If two versions never
+  /// answered the same query, their counters in the table are 0.
   void add_to(VersionTable& table, Kind kind, const std::string& family) const;
 
  private:

@@ -17,7 +17,7 @@ class Votes {
     names.append(names.empty() ? "" : ", ").append(name);
   }
 
-  /// Appends `question` and the names to `text` if the methods' answers differ.
+  /// If the methods' answers to a question differ, appends `question` and the names of the methods to `text`.
   void complain(std::string& text, std::string_view question) const {
     if (yes_.empty() || no_.empty()) return;
     text.append(text.empty() ? "" : ", ").append(question);

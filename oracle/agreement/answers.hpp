@@ -22,11 +22,12 @@ class Answers {
   [[nodiscard]] bool collision() const;
 
   /// Whether no two methods contradict each other, and every complete method says whether there is a
-  /// collision. A complete method need not say this if another one says that the smallest distance is exactly
-  /// h > 0.
+  /// collision. A complete method need not say whether there is a collision if another method says that the
+  /// smallest distance is exactly h > 0.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
   /// The contradictions and the missing answers, such as "collision (no: exact; yes: certificate)"; "" if
-  /// there are none. `by_filter` is the filter's answer, which is compared, too.
+  /// there are none. `by_filter` is the answer of the filter, which is compared with the answers of the
+  /// methods.
   [[nodiscard]] std::string disagreement(const Answer& by_filter = {}) const;
 
   /// Whether there is a collision that root parity cannot detect, because the number of roots is even.

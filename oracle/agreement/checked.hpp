@@ -35,8 +35,8 @@ bool is_proved(const Query& query, const Decision& decision);
 /// smallest double above h. Returns "" if the checker accepts the certificates, else what is not proved, such
 /// as "time (not proved: before)".
 ///
-/// Certificates of bounds of the smallest distance are not checked, because they take several times as long
-/// as the others.
+/// Certificates of bounds of the smallest distance are not checked, because such certificates take several
+/// times as long as those of decisions and times.
 std::string time_disagreement(const Query& query, const Decision& decision);
 
 /// How the answers of all methods and the decision contradict each other. If they agree, the result says

@@ -20,16 +20,16 @@ struct Answer {
   std::optional<bool> at_most{};      ///< for h > 0: whether the distance is at most h at some time
   std::optional<bool> on_boundary{};  ///< whether the primitives meet at t = 0, at t = 1 or at a border
   std::optional<bool> odd{};  ///< whether the number of roots (RootParity) is odd; no value if `on_boundary`
-  /// Whether the method knows anything about the query.
+  /// Whether the method answers at least one of these questions about the query.
   [[nodiscard]] bool is_answer() const { return collision || at_most || on_boundary || odd; }
 
   std::size_t detail = 0;  ///< for a fuzzer: how many bits the length of a certificate has, below 32
 };
 
-/// What a method promises to know.
+/// Which of these questions a method promises to answer.
 enum class Claim {
   complete,  ///< whether there is a collision, unless the smallest distance is exactly h > 0
-  parity,    ///< the members `on_boundary` and `odd` of Answer; only for h = 0 and four vertices
+  parity,    ///< the questions of `on_boundary` and `odd`; only for h = 0 and kinds with four vertices
 };
 
 Answer to_answer(const Query& query, const Decision& decision);

@@ -7,8 +7,8 @@
 
 namespace nearmiss::certified {
 
-/// Stands for an exact number within `error` of x; Real is double or DoubleWord. If anything overflows, the
-/// error is infinite or NaN, and no sign is certain.
+/// Stands for an exact number that differs from x by at most `error`. Real is double or DoubleWord. If
+/// anything overflows, the error is infinite or NaN, and no sign is certain.
 ///
 /// Rounding changes a result x by at most roundoff<Real> |x|, and underflow changes a product by at most
 /// product_underflow<Real> times `smallest`. Two numbers in the formulas below may be too small: |x|, if it

@@ -151,7 +151,7 @@ struct Bernstein {
     return spread_growth * (error + spread);
   }
 
-  /// The largest magnitude of a coefficient's upper half.
+  /// The largest magnitude of the coefficients; if they are double words, of their upper halves.
   [[nodiscard]] Bound<Real> largest() const {
     using std::abs;
     using std::max;

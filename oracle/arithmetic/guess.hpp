@@ -8,7 +8,7 @@
 
 namespace nearmiss::certified {
 
-/// Does for doubles what the function `select` for lanes does for each lane.
+/// Chooses between two doubles, as the function `select` for lanes chooses between two numbers in each lane.
 inline double select(bool mask, double a, double b) { return mask ? a : b; }
 
 /// c[0] + c[1] t + c[2] t² + c[3] t³.

@@ -39,7 +39,8 @@ using certified::ClosestFeatures;
 constexpr int most_tries = 50'000;  ///< the largest number of tests of a normal on an interval
 constexpr int most_tries_if_reached = 500;
 constexpr int most_depth = 8'000;
-constexpr double width_of_doubles = 0x1p-50;  ///< in wider parts, doubles show which features are closest
+/// In parts wider than this, double is precise enough to find the closest features.
+constexpr double width_of_doubles = 0x1p-50;
 constexpr int all_features_from = 6;  ///< the depth from which on the normals of all features are tried
 /// From this depth on, cuts approach times of change (time_of_change()), and the normals of features are no
 /// longer rounded. Each normal is then tested first in the middle of a part, then in all of the part.
@@ -52,11 +53,11 @@ struct Piece {
   bool is_extended = false;     ///< whether extend() was applied to this piece
 };
 
-/// A part of the step for which a normal is to be found.
+/// A part of the step for which the search must find a normal that separates the primitives.
 struct Part {
   Interval at;
   int depth = 0;                         ///< the number of cuts that led to this part
-  const Polynomial* obstacle = nullptr;  ///< what first_obstacle() found before the last cut
+  const Polynomial* obstacle = nullptr;  ///< the obstacle that first_obstacle() found before the last cut
   std::optional<Root> change = {};       ///< the time of change of the obstacle, if it is in this part
   bool is_beside_a_change = false;  ///< whether the last cut approached a time of change outside this part
 
@@ -69,7 +70,8 @@ Polynomial without_root(Polynomial p, const Number& t) {
   return p;
 }
 
-/// The only root of a polynomial in an interval; nothing unless it is known to have exactly one root there.
+/// The only root of a polynomial in an interval; nothing unless the Bernstein coefficients show that the
+/// polynomial has exactly one root in the interval.
 std::optional<Root> only_root(const Polynomial& p, const Interval& in) {
   if (p.sign_at(in.lo) == 0 || p.sign_at(in.hi) == 0) return std::nullopt;
   if (OnInterval(p, in.lo, in.hi).changes() != 1) return std::nullopt;
@@ -98,7 +100,7 @@ class Separator {
         tries_left_(reaches_h ? most_tries_if_reached : most_tries) {}
 
   /// Covers [lo, hi], or [lo, hi) if `open`, with pieces, and cuts each part for which it finds no normal.
-  /// Returns false if it gives up.
+  /// Returns false if the search gives up.
   bool cover(const Number& lo, const Number& hi, bool open) {
     std::vector<Part> parts{{{lo, hi}}};  // the earliest part is the last element
     while (!parts.empty()) {
@@ -112,8 +114,9 @@ class Separator {
     return true;
   }
 
-  /// Extends each piece as far as its normal separates. Narrow pieces come first: they are where the
-  /// primitives are nearest, and their normals often separate before and after, too.
+  /// Extends each piece as far as its normal separates the primitives. Narrow pieces are extended first: they
+  /// are where the primitives are nearest, and their normals often also separate the primitives in the pieces
+  /// before and after.
   void merge(bool open) {
     const auto is_before = [](const Piece& a, const Piece& b) {
       return a.is_extended != b.is_extended ? b.is_extended : a.at.width.x < b.at.width.x;
@@ -125,8 +128,8 @@ class Separator {
     }
   }
 
-  /// Rounds each normal for which find() tried no rounded versions, unless every rounded version fails to
-  /// separate.
+  /// Replaces each normal for which find() tried no rounded versions by a rounded version that also separates
+  /// the primitives, if there is such a version.
   void round(bool open) {
     for (Piece& piece : pieces_)
       for (const int bits : certificates::roundings) {
@@ -189,9 +192,10 @@ class Separator {
     }
   }
 
-  /// The obstacle of a normal is the polynomial that keeps it from separating in all of a part. Returns the
-  /// obstacle of the normal that separates in the middle of the part. If this polynomial is 0 at an end of
-  /// the part, returns the obstacle of a normal that separates at that end, if one is known.
+  /// The obstacle of a normal is the polynomial whose sign keeps the normal from separating the primitives in
+  /// all of a part. Returns the obstacle of the normal that separates the primitives in the middle of the
+  /// part. If this polynomial is 0 at an end of the part, returns the obstacle of a normal that separates the
+  /// primitives at that end, if such a normal is known.
   const Polynomial* first_obstacle(const Interval& in, bool open) {
     const auto of = [&](Normal* normal) -> const Polynomial* {
       for (std::size_t gap = 0; normal != nullptr && gap < gaps_.size(); ++gap)
@@ -211,9 +215,10 @@ class Separator {
     return nullptr;
   }
 
-  /// The root of an obstacle in a part, if it has exactly one there; otherwise the root of the lowest
-  /// derivative that has exactly one there. This is a time at which the obstacle changes its sign or has an
-  /// extremum, or the centre of several such times. Roots at the ends of the part do not count.
+  /// The root of an obstacle in a part, if the obstacle has exactly one root there. Otherwise the root of the
+  /// lowest derivative of the obstacle that has exactly one root there. This is a time at which the obstacle
+  /// changes its sign or has an extremum, or the centre of several such times. Roots at the ends of the part
+  /// do not count.
   [[nodiscard]] static std::optional<Root> time_of_change(const Polynomial& obstacle, const Interval& in) {
     Polynomial p = without_root(without_root(obstacle, in.lo), in.hi);
     for (; p.degree() >= 1; p = p.derivative())
@@ -244,8 +249,9 @@ class Separator {
     return take_normal({Combination::interiors}, part, open);
   }
 
-  /// Tries the normal of these features, or its opposite if only that can separate in the middle of the part.
-  /// Up to the depth `deep`, also tries rounded versions.
+  /// Tries the normal of these features as the separating direction. If only the opposite normal can separate
+  /// the primitives in the middle of the part, tries the opposite normal instead. In parts with a depth below
+  /// `deep`, also tries rounded versions of the normal.
   bool take_normal(const ClosestFeatures& features, const Part& part, bool open) {
     const std::array key{static_cast<std::size_t>(features.combination), features.vertex, features.from,
                          features.to};
@@ -288,7 +294,8 @@ class Separator {
 
   Gaps gaps_;
   std::map<std::array<std::size_t, 4>, FeatureNormal> normals_;
-  Normal* in_the_middle_ = nullptr;  ///< separates in the middle of the part that find() tried last, or null
+  /// A normal that separates the primitives in the middle of the part that find() tried last, or null.
+  Normal* in_the_middle_ = nullptr;
   std::vector<Piece> pieces_;
   bool halves_only_;
   int tries_left_;

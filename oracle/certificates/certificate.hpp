@@ -20,16 +20,16 @@ struct Span {
 
 /// A proof that the distance is always above the query's separation h in a part of the step. If `is_strict`
 /// is false, the proof may show only that the distance is never below h > 0. Returns nothing if the statement
-/// is wrong, or if no proof is found. `is_known` says that the distance is known to be above h in the span;
-/// then the query is not decided again.
+/// is wrong, or if no proof is found. If `is_known` is true, the caller knows that the distance is above h in
+/// the span, and the function does not decide the query again.
 std::optional<std::string> certify_apart(const Query& query, const Span& span, bool is_strict = true,
                                          bool is_known = false);
 
 /// A proof that the distance is at most the query's separation h at some time in a part of the step. If
 /// `is_strict` is true, the proof shows that the distance is below h > 0 at that time. If the span is open,
 /// the interval in the certificate ends before the span's `to`: at the next smaller double if possible,
-/// otherwise at a fraction. Returns nothing if the statement is wrong, or if no proof is found. `known` is
-/// what a decision of the query has found.
+/// otherwise at a fraction. Returns nothing if the statement is wrong, or if no proof is found. `known` has
+/// the times that a decision of the query has found.
 std::optional<std::string> certify_meets(const Query& query, const Span& span, bool is_strict = false,
                                          const KnownTimes& known = {});
 

@@ -88,7 +88,7 @@ class Meeting {
     const ClosestWeights<mpq_class> closest(query_.kind, x.exact());
     if (!is_within(closest.squared_distance())) return std::nullopt;
     if (const auto weights = shortened(closest.weights(), {50, 200, 1000}, x)) return text_at(t, *weights);
-    if (auto text = text_at(t, closest.weights())) return text;  // nothing if it is too long
+    if (auto text = text_at(t, closest.weights())) return text;  // nothing if the certificate is too long
     const auto weights = shortened(closest.weights(), {4000}, x);
     return weights ? text_at(t, *weights) : std::nullopt;
   }
@@ -98,8 +98,8 @@ class Meeting {
   }
 
  private:
-  /// The positions of the vertices at a time: as doubles with error bounds (Ball), and in exact numbers. Only
-  /// the exact ones are computed on first use. The query and the time must outlive this object.
+  /// The positions of the vertices at a time: as doubles with error bounds (Ball), and as exact numbers. The
+  /// exact positions are computed only on first use. The query and the time must outlive this object.
   class PositionsAt {
    public:
     PositionsAt(const Query& query, const mpq_class& t)
@@ -137,8 +137,9 @@ class Meeting {
     return excess != 0 ? excess < 0 : is_within(squared_distance(query_.kind, x.exact(), weights));
   }
 
-  /// Rounds the weights to each number of bits in `bits`, in order, until their points are within h of each
-  /// other, and returns the rounded weights; nothing if no number of bits suffices.
+  /// Rounds the weights to each number of bits in `bits`, one number after the other, until the points with
+  /// the rounded weights are within h of each other. Returns these weights; nothing if no number of bits
+  /// suffices.
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> shortened(const WeightsOfPoints<Real>& weights,
                                                                     std::initializer_list<unsigned> bits,
@@ -152,8 +153,8 @@ class Meeting {
     return std::nullopt;
   }
 
-  /// The weights, rounded to multiples of 2^-bits that add up to 1 for each primitive; nothing if one of
-  /// these would be negative.
+  /// The weights, rounded to multiples of 2^-bits that add up to 1 for each primitive; nothing if one of the
+  /// rounded weights would be negative.
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> rounded_weights(
       const WeightsOfPoints<Real>& weights, unsigned bits) const {
@@ -206,8 +207,8 @@ class Crossing {
     return is_proof ? text(p, q) : std::nullopt;
   }
 
-  /// The proof of bracket() for an interval that contains `known`. Intervals whose ends have few bits come
-  /// first.
+  /// The proof that bracket() gives for an interval that contains `known`. Tries intervals whose ends have
+  /// few bits first.
   [[nodiscard]] std::optional<std::string> wide_bracket(const Enclosure& known) const {
     for (const int bits : {3, 6, 10, 15, 21, 28, 36, 44}) {
       const double lo = std::max(std::ldexp(std::floor(std::ldexp(known.lo, bits)), -bits), span_.from);
@@ -293,12 +294,13 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span,
 }
 
 /// The searches for the time of a proof give up at about this many bits. If the distance touches h only for a
-/// moment, at an irrational time, there is no proof, so certify_touch() gives up earlier.
+/// moment, at an irrational time, there is no proof, so certify_touch() gives up at fewer bits.
 constexpr unsigned most_bits = 10'000;
 constexpr unsigned most_bits_of_touch = 5'000;
 
 /// The proof that the distance is h at some time. If the first such time is rational, the proof uses it.
-/// Otherwise the proof uses a time soon after it, and is found only if the distance stays at h.
+/// Otherwise the proof uses a time soon after the first such time. This proof is found only if the distance
+/// stays at h.
 std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));
   for (const Number least = exact::power_of_half(most_bits_of_touch);; time.refine()) {
@@ -332,8 +334,8 @@ std::optional<std::string> certify_approach(const Query& query, const Span& span
     if (auto text = meeting.at(t)) return text;
   const auto approach = times.exactly ? *times.exactly : exact::first_approach(query);
   if (!approach) return std::nullopt;
-  // If the distance falls below h, points near the closest ones are within h of each other, too. Among them
-  // are some whose weights have few digits, which keeps the proof short.
+  // If the distance falls below h, there are pairs of points near the closest points that are also within h
+  // of each other. Some of these points have weights with few digits, which keeps the proof short.
   if (approach->below)
     if (auto text = certify_below(*approach->below, meeting)) return text;
   return is_strict ? std::nullopt : certify_touch(approach->time, meeting);

@@ -55,13 +55,13 @@ class Gaps {
 class Normal {
  public:
   Normal(const PolynomialVector& n, Gaps& gaps);
-  /// A direction whose coefficients are exactly doubles.
+  /// A direction whose coefficients are doubles without an error.
   Normal(const RoughVector& n, Gaps& gaps) : rough_(n), gaps_(&gaps) {}
 
   [[nodiscard]] const PolynomialVector& exact();
   [[nodiscard]] const RoughVector& rough() const { return rough_; }
 
-  /// Whether the direction clearly does not separate the primitives at an end of the interval or in the
+  /// Whether the direction clearly does not separate the primitives at an end of the interval or in its
   /// middle.
   [[nodiscard]] bool clearly_fails(const Interval& interval);
 
@@ -69,7 +69,7 @@ class Normal {
   /// or, if `open`, [lo, hi).
   [[nodiscard]] bool separates(const Interval& interval, bool open);
   [[nodiscard]] bool separates_at(const Number& t);
-  /// The polynomial whose sign at this gap makes separates() false; null if there is none.
+  /// The polynomial of this gap whose sign makes separates() false; null if this gap has no such polynomial.
   [[nodiscard]] const Polynomial* obstacle(std::size_t gap, const Interval& interval, bool open);
 
   /// Whether, along this direction, the first vertex of the first primitive is behind the first vertex of the

@@ -12,8 +12,8 @@ namespace nearmiss::certificates {
 /// x as text, such as "3" or "0x1.8p-3"; "p/q" if x is not a double.
 std::string to_text(const exact::Number& x);
 
-/// The beginning of a certificate, from {"kind": to "to": and its value. These keys are the ones that the
-/// certificates of both claims have. `to` is the text of a number.
+/// The beginning of a certificate, from {"kind": to "to": and its value. The certificates of both claims,
+/// "apart" and "meets", have these keys. `to` is the text of a number.
 std::string heading(const Query& query, const char* claim, double from, const std::string& to);
 
 /// A certificate, unless it or one of its numbers is longer than the checkers accept.

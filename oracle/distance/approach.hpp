@@ -13,15 +13,15 @@ namespace nearmiss::certified {
 struct Approach {
   double lower = 0;
   double upper = 0;
-  double time = 0;      ///< a time at which the distance is about `upper`
+  double time = 0;      ///< a time at which the distance of the primitives is about `upper`
   bool enough = false;  ///< whether lower >= needed(upper)
 };
 
 /// Encloses the smallest distance. The search computes the distance at times near its minimum, and at further
-/// times until certified bounds around these times cover the step. It computes in double if that resolves the
-/// distance, else in double words, and finally with 384 bits. The errors are about 2^-48, 2^-98 and 2^-378 of
-/// the largest difference of two vertices. The search gives up if it needs too many times, for example to
-/// enclose a minimum narrowly while the normal turns.
+/// times until certified bounds around these times cover the step. The search computes in double if double
+/// resolves the distance, else in double words, and finally with 384 bits. The errors of the three precisions
+/// are about 2^-48, 2^-98 and 2^-378 of the largest difference of two vertices. The search gives up if it
+/// needs too many times, for example to enclose a minimum narrowly while the normal turns.
 Approach closest_approach(const VertexDifferences& differences, const NeededDistance& needed);
 
 /// When the distance first falls below a bound (`low` of first_time_below()).

@@ -33,7 +33,7 @@ struct ClosestFeatures {
 
 /// Points of the two primitives, and their distance. These points certainly belong to the primitives: their
 /// weights are not negative and add up to 1. (For a triangle, rounding may add 2 roundoff<Real> to the sum;
-/// see points_error() in moment.hpp.) It is not certain that they are the closest points.
+/// see points_error() in moment.hpp.) It is not certain that these points are the closest ones.
 template <class Real>
 struct ClosestPoints {
   ClosestFeatures features;
@@ -58,8 +58,9 @@ struct Candidate {
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
-/// Replaces `best` by another candidate, unless the points of that candidate are farther apart. On a tie, the
-/// later candidate wins: the interiors come last, and only they give the normal.
+/// Replaces `best` by another candidate, unless the points of that candidate are farther apart. If the points
+/// of both are equally far apart, the other candidate replaces `best`: the points in the interiors are
+/// considered last, and only they give the normal.
 template <class Real>
 void take_closer(Candidate<Real>& best, const ClosestFeatures& features, const Vec<Real>& difference,
                  const Real& a, const Real& b) {

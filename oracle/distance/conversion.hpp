@@ -1,4 +1,4 @@
-// Conversion of distances between units, rounded in a known direction.
+// Converts distances from one unit to another, and rounds the results in a known direction.
 #pragma once
 
 #include <bit>

@@ -18,7 +18,7 @@ namespace nearmiss::certified {
 
 namespace {
 
-/// A number that depends on time, and its derivative.
+/// The value of a function of time, and the derivative of this function.
 template <class Number>
 struct Dual {
   Number value, derivative;
@@ -37,7 +37,7 @@ struct Dual {
 /// A bound of the error of a number that VertexDifferences has scaled to its unit.
 constexpr double scaling_error = 0x1p-1072;
 
-// Converts a component of a difference of vertices, or h, to another type.
+// Converts a component of a difference of vertices, or the separation h, to another number type.
 void convert(const DoubleWord& from, double& to) { to = from.hi; }
 void convert(const DoubleWord& from, Ball<double>& to) { to = {from.hi, std::abs(from.lo) + scaling_error}; }
 void convert(const DoubleWord& from, Ball<DoubleWord>& to) { to = {from, scaling_error}; }

@@ -133,8 +133,8 @@ class DistanceSearch {
   }
 
   /// Searches for a minimum of the distance between the times a and b, if the distance falls after a and
-  /// grows before b. Each step looks at the minimum that a or b predicts, or at the middle if predictions
-  /// have not helped.
+  /// grows before b. Each step looks at the time of the minimum that the moment at a or b predicts, or at the
+  /// middle of a and b if predictions have not helped.
   void descend(const SampledTime* a, const SampledTime* b) {
     if (!(a->moment.slope < 0 && b->moment.slope > 0)) return;
     constexpr int most_steps = 60;
@@ -153,8 +153,9 @@ class DistanceSearch {
     }
   }
 
-  /// The time of the minimum that a or b predicts. If both predict a time between a and b, the one with the
-  /// steeper slope counts; if neither does, returns the middle.
+  /// The time of the minimum of the distance that the moment at a or b predicts. If both moments predict a
+  /// time between a and b, the prediction of the moment with the steeper slope counts. If neither moment
+  /// predicts such a time, returns the middle of a and b.
   static Real guess_between(const SampledTime& a, const SampledTime& b, double width) {
     const bool a_is_inside = 0 < a.moment.step && a.moment.step < width;
     const bool b_is_inside = 0 < -b.moment.step && -b.moment.step < width;
@@ -296,11 +297,11 @@ class DistanceSearch {
     return time.hi - time.lo <= width || std::nextafter(time.lo, 2.0) >= time.hi;
   }
 
-  /// Looks into a gap that ends at a time at which the distance is below `low_`. Newton's method from one end
-  /// of the gap gives the next time. Once Newton's step is short, it is doubled, or set to 0.4 of `width` if
-  /// that is longer. So the next time lies beyond the crossing, and the crossing is enclosed from both sides.
-  /// If `halve`, the next time is the middle of the uncovered part. Returns false if nothing more can be
-  /// done.
+  /// Looks into a gap that ends at a time at which the distance is below `low_`. A step of Newton's method
+  /// from one end of the gap gives the next time to look at. Once Newton's step is short, it is doubled, or
+  /// set to 0.4 of `width` if that is longer. So the next time lies beyond the crossing, and the crossing is
+  /// enclosed from both sides. If `halve`, the next time is the middle of the uncovered part. Returns false
+  /// if nothing more can be done.
   bool look_for_crossing(const Gap& gap, double width, bool halve) {
     SampledTime& a = times_[gap.before];
     const SampledTime& b = times_[gap.before + 1];
@@ -336,7 +337,7 @@ class DistanceSearch {
     return true;
   }
 
-  /// Upper bounds of the distance are rounded to double, with this relative precision.
+  /// Upper bounds of the distance are rounded to double. This is the relative precision of the rounding.
   static constexpr double resolution = 0x1p-46;
 
   /// Whether the upper bound of the distance differs from `low_` by more than its rounding error.
@@ -352,7 +353,8 @@ class DistanceSearch {
 
   const VertexDifferences& differences_;
   const NeededDistance& needed_;
-  boost::container::stable_vector<SampledTime> times_;  ///< in order; insertion moves no element in memory
+  /// In the order of the times; an insertion moves no element in memory.
+  boost::container::stable_vector<SampledTime> times_;
   /// Bounds cover the step up to times_[covered_times_], and always will, because `required_` never rises.
   std::size_t covered_times_ = 0;
   double upper_ = std::numeric_limits<double>::infinity();

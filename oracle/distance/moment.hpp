@@ -13,18 +13,19 @@
 
 namespace nearmiss::certified {
 
-/// Lengths are in the unit of VertexDifferences.
+/// What is computed about the two primitives at one time. All lengths are in the unit of VertexDifferences.
 struct Moment {
   bool is_precise = false;   ///< whether this was computed in the Real of DistanceSearch, not in double
-  ClosestFeatures features;  ///< features of the closest points, uncertified
+  ClosestFeatures features;  ///< the parts of the primitives that contain the closest points, uncertified
   double upper = 0;          ///< a certified upper bound of the distance
-  double slope = 0;          ///< has the sign of the derivative of the distance, uncertified
+  double slope = 0;          ///< a number with the sign of the derivative of the distance, uncertified
   double step = 0;           ///< time from here to the minimum of the distance, estimated
   double predicted = 0;      ///< the distance at that minimum, estimated
   double rate = 0;           ///< derivative of the distance, estimated
   Vec<double> direction{};   ///< unit vector from the second primitive's closest point to the first's, or 0
 
-  /// Lower bounds of the distance: first the one that fits the features best; then, if `has_all`, the others.
+  /// Lower bounds of the distance: first the bound that fits the features of the closest points best; then,
+  /// if `has_all`, the other bounds.
   boost::container::small_vector<Separation, 1> separations;
   bool has_all = false;
 };

@@ -23,8 +23,9 @@ double time_of_nearest_centres(const VertexDifferences& differences) {
   return squared > 0 ? std::min(std::max(0.0, -dot(start, moved) / squared), 1.0) : 0;
 }
 
-/// The velocity of the closest points relative to each other, without its component along an edge; for
-/// interiors, only its component along the normal.
+/// The velocity of the closest points relative to each other. For a vertex and an edge, the result is this
+/// velocity without its component along the edge. For interiors, the result is only the component along the
+/// normal.
 Vec<double> approach_velocity(const VerticesAt<double>& x, const ClosestPoints<double>& closest) {
   const auto& [features, difference, velocity, squared_distance] = closest;
   switch (features.combination) {
@@ -115,7 +116,8 @@ bool QuickSearch::look_into_first_gap() {
 
 QuickSearch::Crossing QuickSearch::crossing() const {
   constexpr int most_steps = 8;
-  constexpr double short_step = 0x1p-17;  // after it, t is wrong by about 2^-34, far below `rough_time`
+  // After a step this short, the error of t is about 2^-34, far below `rough_time`.
+  constexpr double short_step = 0x1p-17;
   double before = first_gap().lo;
   double behind = first_gap().hi;
   double t = std::clamp(first_gap().guess, before, behind);

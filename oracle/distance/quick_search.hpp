@@ -25,8 +25,9 @@ class QuickSearch {
   QuickSearch(const VertexDifferences& differences, double low, double required)
       : differences_(differences), low_(low), required_(required) {}
 
-  /// Whether the distance falls below `low`. If so, the enclosure contains the first such time, and the
-  /// distance is at least `required` before it. If the search gives up, neither `never` nor `comes` is set.
+  /// Whether the distance falls below `low`. If the distance falls below `low`, the enclosure contains the
+  /// first time at which it is below `low`, and the distance is at least `required` before it. If the search
+  /// gives up, neither `never` nor `comes` is set.
   FirstTime decide();
 
   /// Narrows the enclosure in `known`, a result of decide() or first_time_below(), to at most `width`. If the
@@ -68,7 +69,7 @@ class QuickSearch {
   std::array<Gap, most_gaps> gaps_{};  ///< the gaps, from the last in the step to the first
   std::size_t count_ = 0;
   bool comes_ = false;
-  double width_ = 0;     ///< for narrow()
+  double width_ = 0;     ///< for narrow(): the width that the enclosure may have
   double low_time_ = 1;  ///< if `comes_`, a time at which the distance is certainly below `low`
 };
 

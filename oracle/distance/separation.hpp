@@ -47,10 +47,10 @@
 
 namespace nearmiss::certified {
 
-/// Distances below this, in the unit of VertexDifferences, are not resolved.
+/// Distances below this number, in the unit of VertexDifferences, cannot be told from 0.
 inline constexpr double least_distance = 0x1p-500;
 
-/// A polynomial in s of degree 3, and bounds of its coefficients' errors.
+/// A polynomial in s of degree 3, and a bound of the error of each of its coefficients.
 struct Product {
   std::array<double, 4> coefficients{};
   std::array<double, 4> errors{};
@@ -98,7 +98,8 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
   const Vec<Real> edge = x.position(to, from);
   const Vec<double> rough_edge = to_double(edge);
   const double squared_length = dot(rough_edge, rough_edge);
-  constexpr double too_short = 0x1p-200;  // below this, k is so large that underflow matters
+  // If the squared length of the edge is below this number, k is so large that underflow matters.
+  constexpr double too_short = 0x1p-200;
   if (!(squared_length > too_short)) return {};
   const Vec<double> key =
       (1 / squared_length) * cross(direction, rough_edge);  // e × (d × e) = |e|² d for d at right angles to e
@@ -116,7 +117,7 @@ Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::si
     separation.add({to_double(dot(n0, p)), to_double(dot(n0, w) + dot(n1, p)), to_double(dot(n1, w)), 0},
                    {error, 4 * error, 4 * error, 0});
   };
-  // The vertex `to` has the same products as the vertex `from`.
+  // The products n · (x_i - x_j) are the same for the vertex `to` as for the vertex `from`.
   for (const auto& [i, j] : topology(differences.kind()).gaps)
     if (i != to && j != to) add(i, j);
   return separation;

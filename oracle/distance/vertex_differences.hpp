@@ -42,9 +42,9 @@ template <class Use>
   if (count > 3) use(2, 3);
 }
 
-/// The differences x_i - x_j of all pairs of vertices at both ends of the step; 0 for vertices that the kind
-/// does not have. The unit is 2^exponent, chosen so that the magnitude of the largest component is between 1
-/// and 2 (all components are 0 if all vertices coincide).
+/// The differences x_i - x_j of all pairs of vertices at both ends of the step; the differences are 0 for
+/// vertices that a query of this kind does not have. The unit is 2^exponent, chosen so that the magnitude of
+/// the largest component is between 1 and 2 (all components are 0 if all vertices coincide).
 ///
 /// A difference of doubles is exactly a double word. Scaling it to the unit is also exact except for
 /// underflow of at most 2^-1073 of the unit, which is far below `least_distance`. If a difference, or the sum

@@ -8,8 +8,8 @@
 
 namespace nearmiss::exact {
 
-/// The earliest time at which the distance is at most h, the separation, and the time at which it falls below
-/// h.
+/// The earliest time at which the distance is at most h, the separation, and the time at which the distance
+/// falls below h.
 struct FirstApproach {
   Root time;
   /// The time at which the distance first falls below h. Until then, the distance is at least h. Nothing if

@@ -43,8 +43,9 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
 /// weight. Proof: the set of colliding times is closed, so it has a least element t*. Suppose that t* is
 /// neither 0 nor a root of one of the polynomials that are not identically zero. Then N_k is not zero and no
 /// polynomial changes its sign in a neighbourhood of t*, so there are collisions before t*, a contradiction.
-/// If N is identically zero, the polynomials are those of Predicates::segments(), for the same reason. One of
-/// several proportional polynomials, such as the components of a vector of constant direction, is enough.
+/// If N is identically zero, the polynomials are those of Predicates::segments(), for the same reason. If
+/// several of the polynomials are proportional to each other, such as the components of a vector of constant
+/// direction, one of them is enough.
 std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
   std::vector<Polynomial> deciding;
   const auto add = [&](const Polynomial& p) {

@@ -10,10 +10,11 @@ namespace nearmiss::exact {
 
 /// How the primitives meet at a time.
 struct Meeting {
-  /// The number of weights that vanish. With a triangle: 0 if the primitives meet inside the triangle, 1 if
-  /// on an edge of it, 2 if at a vertex of it. With two edges: 0 if they meet inside both, 1 if at an end of
-  /// one edge, 2 if at an end of each edge. Primitives without a common normal always meet at a border, so
-  /// the number is 1 or 2.
+  /// The number of weights that vanish. For a vertex and a triangle, it is 0 if they meet inside the
+  /// triangle, 1 if they meet on an edge of the triangle, and 2 if they meet at a vertex of the triangle. For
+  /// two edges, it is 0 if they meet inside both edges, 1 if they meet at an end of one edge, and 2 if they
+  /// meet at an end of each edge. Primitives without a common normal always meet at a border, so the number
+  /// is 1 or 2.
   int vanishing_weights = 0;
   /// Whether there is no common normal: the triangle has no area, or the edges are parallel or have no
   /// length.

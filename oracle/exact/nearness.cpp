@@ -133,7 +133,8 @@ void Nearness::add_interiors(Interiors&& of) {
 // leave the inside of the features; at that time, features of a lower dimension are at the same distance.
 SmallestDistance::SmallestDistance(const Query& query) : unit_(query) {
   const Interiors of = interiors(query.kind, moving_points(query, unit_));
-  const Nearness contact(query, 0);  // b = 0, so that each excess is the numerator of a squared distance
+  // For b = 0, the excess of each statement is the numerator of a squared distance.
+  const Nearness contact(query, 0);
   for (const FeatureNearness& each : contact.statements()) {
     const bool are_vertices = each.extents.empty();
     Minima minima{each.excess, are_vertices ? Polynomial({Number(1)}) : each.extents[0], {}};

@@ -96,8 +96,8 @@ class SmallestDistance {
 
 namespace nearmiss {
 
-/// Whether the smallest distance over [0, 1] is at most `bound`, a finite number >= 0. Exact for every finite
-/// query. `exact::SmallestDistance` answers several such questions in less time.
+/// Whether the smallest distance over [0, 1] is at most `bound`, a finite number >= 0. The answer is exact
+/// for every finite query. `exact::SmallestDistance` answers several such questions in less time.
 bool comes_within(const Query& query, double bound);
 
 }  // namespace nearmiss

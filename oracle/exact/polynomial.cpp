@@ -31,7 +31,8 @@ Polynomial Polynomial::derivative() const {
 
 namespace {
 
-/// Combines two polynomials coefficient by coefficient; missing coefficients are 0.
+/// Combines the coefficients of two polynomials one by one. If one polynomial has fewer coefficients than the
+/// other, its missing coefficients count as 0.
 template <class Combine>
 Polynomial by_coefficients(const Polynomial& p, const Polynomial& q, const Combine& combine) {
   static const Number zero = 0;

@@ -63,7 +63,8 @@ Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q);
 /// The polynomial divided by the largest integer that divides all numerators of its coefficients.
 Polynomial primitive(const Polynomial& p);
 
-/// p with each multiple factor reduced to a single one. The degree of p must be at least 1.
+/// The polynomial p in which each factor that occurs several times is replaced by one such factor. The degree
+/// of p must be at least 1.
 Polynomial square_free(const Polynomial& p);
 
 /// The number of sign changes from one number to the next; zeros are skipped.

@@ -101,7 +101,7 @@ void shift(Numbers& c, const Multiply& times_shift) {
 Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
   // First computes the coefficients of the powers of s. Here s is a fraction of the interval, counted from lo
   // or hi, whichever has fewer bits.
-  constexpr std::size_t short_size = 4;  // with at most this many coefficients, counts from lo
+  constexpr std::size_t short_size = 4;  // if there are at most this many coefficients, s is counted from lo
   const bool from_hi = c.size() > short_size &&
                        exponent_of_denominator(CGAL::Gmpq(hi)) < exponent_of_denominator(CGAL::Gmpq(lo));
   const Number& from = from_hi ? hi : lo;
@@ -202,7 +202,7 @@ double OnInterval::guess_extremum() const {
   const std::vector<double> slope = derivative(in_proportion(c_));
   const std::vector<double> bend = derivative(slope);
   double s = 0.5;
-  // Newton's method; it converges only linearly if two roots are close.
+  // Newton's method. It converges only linearly if two roots are close to each other.
   for (int i = 0; i < 60; ++i) {
     const double value = value_at(slope, s);
     if (value == 0) break;
@@ -232,7 +232,8 @@ std::optional<Number> OnInterval::guess_cluster(unsigned bits) const {
 }
 
 std::optional<OnInterval::NearEnd> OnInterval::roots_near_end() const {
-  constexpr std::ptrdiff_t near = -40;  // if roots are at least 2^near from the ends, cuts at doubles suffice
+  // If the roots are at least 2^near away from the ends of the interval, cuts at doubles suffice.
+  constexpr std::ptrdiff_t near = -40;
   using Exponents = std::vector<std::ptrdiff_t>;
   Exponents exponents;
   for (const Number& c : c_) exponents.push_back(CGAL::is_zero(c) ? 0 : exponent_above(c));
@@ -296,7 +297,8 @@ void Root::refine() {
   }
   Number guess = Number(s);
   Number unit = Number(around);
-  // In a small interval p is nearly linear, so a step along the chord gives many more digits of the root.
+  // In a small interval, the polynomial p is nearly linear. So a step along the chord between the ends of the
+  // interval gives many more digits of the root.
   if (chord_steps_ > 1) {
     for (int i = 1; i < chord_steps_; ++i) unit = unit * Number(around);
     const Number value = on(guess);
@@ -321,12 +323,13 @@ void Root::refine() {
 namespace {
 
 /// Requires that p has at most one root between lo and hi, that this root is simple, and that p and q are not
-/// both zero at lo or at hi. If q has the root, too, returns a polynomial that has it: p or, if its degree is
-/// lower, the greatest common divisor of p and q. Otherwise returns nothing. The divisor has the root iff its
-/// signs at lo and hi differ.
+/// both zero at lo or at hi. If this root of p is also a root of q, returns a polynomial that has the root: p
+/// or, if its degree is lower, the greatest common divisor of p and q. Otherwise returns nothing. The divisor
+/// has the root iff its signs at lo and hi differ.
 std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Polynomial& q, const Number& lo,
                                                    const Number& hi) {
-  constexpr int short_degree = 3;  // up to this degree, finding the divisor is faster than testing residues
+  // Up to this degree, the greatest common divisor is found faster than residues are tested.
+  constexpr int short_degree = 3;
   if (std::max(p.degree(), q.degree()) > short_degree && are_coprime_by_residues(p, q)) return nullptr;
   Polynomial common = greatest_common_divisor(p, q);
   if (common.degree() < 1 || common.sign_at(lo) == common.sign_at(hi)) return nullptr;
@@ -338,7 +341,8 @@ std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Po
 int Root::sign_of(const Polynomial& q) {
   if (q.degree() < 1) return q.is_zero() ? 0 : sign(q.leading());
   if (!is_number() && are_proportional(*p_, q)) return 0;
-  constexpr int patience = 1;  // one refinement narrows by 44 bits, which nearly always shows a nonzero sign
+  // One refinement narrows the interval by 44 bits, after which a sign that is not zero nearly always shows.
+  constexpr int patience = 1;
   for (bool can_be_zero = true;;) {
     if (is_number()) return q.sign_at(lo_);
     if (const int s = OnInterval(q, lo_, hi_).only_sign(); s != 0) return s;

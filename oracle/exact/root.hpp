@@ -33,26 +33,27 @@ class OnInterval {
 
   /// The same polynomial on the part of the interval between two fractions.
   [[nodiscard]] OnInterval part(const Number& from, const Number& to) const;
-  /// Rounds very long coefficients. Parts inherit the errors.
+  /// Rounds very long coefficients. The parts of this polynomial inherit the errors of rounding.
   void round();
-  /// Whether rounding has certainly changed the sign of no coefficient, and the size of none by a factor of
-  /// 2.
+  /// Whether the rounding has certainly left the sign of every coefficient as it was, and changed the size of
+  /// every coefficient by a factor of less than 2.
   [[nodiscard]] bool is_certain() const;
 
   /// The n + 1 Bernstein coefficients, each times its binomial coefficient, where n is the degree.
   [[nodiscard]] const Numbers& coefficients() const { return c_; }
   [[nodiscard]] int changes() const { return sign_changes(c_); }
-  /// The sign on the open interval, if the coefficients show it; else 0.
+  /// The sign of the polynomial on the open interval, if the coefficients show this sign; else 0.
   [[nodiscard]] int only_sign() const;
 
   [[nodiscard]] Number rise() const { return c_.back() - c_.front(); }
 
-  /// The value at a fraction of the interval.
+  /// The value of the polynomial at a fraction of the interval.
   [[nodiscard]] Number operator()(const Number& fraction) const;
 
-  /// Guesses where the only root is, as a fraction of the interval, given the sign at the lower end.
+  /// Guesses where the only root in the interval is, from the sign at the lower end. The result is a fraction
+  /// of the interval.
   [[nodiscard]] double guess_root(int sign_at_lo) const;
-  /// Guesses where an extremum may be, as a fraction of the interval.
+  /// Guesses where an extremum of the polynomial may be. The result is a fraction of the interval.
   [[nodiscard]] double guess_extremum() const;
   /// Guesses where a cluster of roots may be. The result is a fraction of the interval, rounded down to a
   /// multiple of 2^-bits, or nothing if the guess is not above the lower end, or the rounded guess is above
@@ -73,8 +74,8 @@ class OnInterval {
   explicit OnInterval(Numbers&& c) : c_(std::move(c)) {}
 
   Numbers c_;
-  /// The error of each coefficient is below its binomial coefficient times 2^error_. Without a value, all
-  /// coefficients are exact.
+  /// The error of each coefficient is below its binomial coefficient times 2^error_. If `error_` has no
+  /// value, all coefficients are exact.
   std::optional<std::ptrdiff_t> error_;
 };
 
@@ -105,7 +106,8 @@ class Root {
 
  private:
   [[nodiscard]] bool is_number() const { return !p_; }
-  /// Whether this and `other` are the same root. If they are, gives both the same polynomial and interval.
+  /// Whether this and `other` are the same root. If they are the same root, gives both objects the same
+  /// polynomial and interval.
   bool is_same(Root& other);
   void cut(const Number& at);
   void take(std::shared_ptr<const Polynomial> p, Number lo, Number hi);

@@ -31,7 +31,8 @@ struct Cuts {
 struct Part {
   Number lo, hi;
   OnInterval on;
-  bool at_extremum = true;     ///< whether the next usual() cuts near an extremum, or else in the middle
+  /// Whether the next call of usual() cuts near an extremum; otherwise it cuts in the middle.
+  bool at_extremum = true;
   unsigned bits = 44;          ///< see clusters()
   bool is_in_cluster = false;  ///< whether clusters() was called; coefficients may then be long
 

@@ -22,7 +22,8 @@ namespace nearmiss::certified {
 /// Processes the queries in three stages: tests by boxes and moving planes; a test of the sign of F, the
 /// coplanarity cubic; a search in parts of the step. Each stage takes the queries that are still undecided,
 /// side by side in n lanes. The last stage is a simpler version of ContactSearch, and leaves difficult
-/// queries undecided. The results of a lane depend only on its query, so n changes no answer.
+/// queries undecided. The results in a lane depend only on the query in this lane, so the number n of lanes
+/// changes no answer.
 template <int n, Kind kind>
 class BatchFilter {
  public:
@@ -65,7 +66,8 @@ class BatchFilter {
       size_ = size;
     }
     void add(std::size_t row) { add_if(true, row); }
-    /// Adds an index if it is wanted, without a branch, which would be unpredictable.
+    /// Adds an index to the list if the index is wanted. The code has no branch, because the processor could
+    /// not predict it.
     void add_if(bool wanted, std::size_t row) {
       rows_[size_] = static_cast<std::uint8_t>(row);
       size_ += wanted ? 1 : 0;
@@ -144,8 +146,9 @@ class BatchFilter {
       for (std::size_t c = 4; c < 24; c += 4)
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
       const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
-      // The stages for the codes 0 to 4. Code 0: a coordinate is not finite; 1: the primitives are not
-      // separated; 2: only a plane separates them; 3: only the test of the boxes does; 4: both do.
+      // The stages for the codes 0 to 4. Code 0: a coordinate is not finite. Code 1: neither the test of the
+      // planes nor the test of the boxes separates the primitives. Code 2: only the test of the planes does.
+      // Code 3: only the test of the boxes does. Code 4: both tests do.
       constexpr std::array stage_of{FilterStage::undecided, FilterStage::undecided, FilterStage::planes,
                                     FilterStage::boxes, FilterStage::boxes};
       constexpr int unsure = 1;
@@ -220,8 +223,8 @@ class BatchFilter {
     std::array<PendingPart, room + n> parts;
     std::size_t count = 0;
 
-    /// Adds the part [lo, hi] of `whole` if that part is not empty. Returns false if there is no room, or if
-    /// `whole` has been divided too often.
+    /// Adds the part [lo, hi] of `whole` if that part is not empty. Returns false if the list of parts is
+    /// full, or if `whole` has been divided too often.
     bool push(const PendingPart& whole, double lo, double hi) {
       constexpr std::uint8_t deepest = 6;
       if (whole.depth == deepest || count == room) return false;
@@ -269,8 +272,8 @@ class BatchFilter {
     }
   }
 
-  /// Near some roots of F, double does not show the signs of the weights. Computes the weights near these
-  /// roots in double words.
+  /// Near some roots of F, double precision is not enough to find the signs of the weights. Computes the
+  /// weights near these roots in double words.
   void look_precisely(std::size_t i, const Rows& rows, FilterStage* stages, PendingParts& next) {
     const PendingPart* const pack = &precise_.parts[i];
     const auto take = [&](const OfBatch& c) {

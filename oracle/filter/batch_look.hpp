@@ -72,8 +72,8 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
 
 /// What look() finds in a part [lo, hi] of the step, in each lane. The bits of `outcome` have these meanings.
 /// `before`: [lo, left] must be examined next; `middle`: [left, right]; `behind`: [right, hi]. `bracket`:
-/// there is a collision in [left, right]. `precise`: F has a root in [left, right], but double does not show
-/// the signs of the weights.
+/// there is a collision in [left, right]. `precise`: F has a root in [left, right], but double precision is
+/// not enough to find the signs of the weights there.
 template <int n>
 struct Look {
   enum : std::int64_t {
@@ -112,7 +112,8 @@ struct EndSigns {
 template <int n>
 struct RootBracket {
   Lanes<n> t, h, before, behind;
-  typename Lanes<n>::Mask holds;  ///< the bracket is small, and F certainly changes its sign in the bracket
+  /// The lanes in which the bracket is small, and F certainly changes its sign in it.
+  typename Lanes<n>::Mask holds;
 
   /// Finds the root by Newton's method, which starts at the root of the secant. f has the Bernstein
   /// coefficients of F on [lo, hi].

@@ -75,8 +75,9 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   return KnownTime{{t, t}};
 }
 
-/// Decides a query whose coplanarity cubic F may have a root. If `time` is not null, sets it to two
-/// neighbouring doubles around the first contact, or to the time of the contact, if either is found.
+/// Decides a query whose coplanarity cubic F may have a root. If `time` is not null, sets `time` to two
+/// neighbouring doubles around the first contact or to the time of this contact, if the search finds one of
+/// these.
 [[gnu::noinline, gnu::flatten]] FilterStage look_closer(const Query& query, const StepPart<double>& whole,
                                                         const Bernstein<double, 4>& F, KnownTime* time) {
   const auto may_touch_at = [&](int end) { return !(std::abs(F.b[end == 0 ? 0 : 3]) > F.error); };
@@ -88,8 +89,9 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   Found found = search(query, F, whole, time == nullptr ? Asked::whether : Asked::when);
   if (time != nullptr && found.time) {
     if (const auto neighbours = between_neighbours(query, F, found.time->time)) *time = *neighbours;
-    // There may be an unclear part before the contact. A search without `time` ends at such a part. The stage
-    // must not depend on `time`, so it is taken from a second search, without `time`.
+    // There may be an unclear part before the contact, and a search that is not asked for a time ends at such
+    // a part. The stage must not depend on whether a time is asked for, so the stage is taken from a second
+    // search, which is not asked for a time.
     if (!found.time->is_between) found = search(query, F, whole);
   }
   if (found.stage != FilterStage::undecided) return found.stage;

@@ -30,7 +30,7 @@ enum class FilterStage : std::uint8_t {
 
 inline constexpr std::size_t filter_stage_count = 9;
 
-/// Names of the stages, in order, as used in files and reports.
+/// The names of the stages, as files and reports write them, in the order of the enumeration.
 inline constexpr std::array<std::string_view, filter_stage_count> filter_stage_names{
     "boxes", "planes", "one-sign", "weights", "sign-change", "at-an-end", "apart", "within", "undecided"};
 
@@ -39,8 +39,8 @@ constexpr bool is_collision(FilterStage stage) {
   return stage == FilterStage::sign_change || stage == FilterStage::at_an_end || stage == FilterStage::within;
 }
 
-/// Decides a query in double and double words with certified bounds, or leaves it undecided; the box test is
-/// not included. A query with a coordinate that is not finite is left undecided.
+/// Decides a query in double and double words with certified error bounds, or leaves it undecided. This
+/// function does not include the box test. A query with a coordinate that is not finite is left undecided.
 FilterStage filter(const Query& query);
 
 /// The width to which most times can be enclosed without double words.

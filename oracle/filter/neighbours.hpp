@@ -13,8 +13,9 @@ namespace nearmiss::certified {
 
 inline bool any_of(bool mask) { return mask; }
 
-inline constexpr double value_growth = 1.02;   ///< factor by which roundings and underflow increase E (below)
-inline constexpr double secant_rounding = 10;  ///< roundings, in units of U (|v| + |S| g) (below)
+/// The factor by which roundings and underflow increase the error bound E (see below).
+inline constexpr double value_growth = 1.02;
+inline constexpr double secant_rounding = 10;  ///< the roundings, in units of U (|v| + |S| g) (see below)
 
 /// Two neighbouring doubles, and whether a root certainly lies between the two, for each lane.
 template <class Real>

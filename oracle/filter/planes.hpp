@@ -51,7 +51,7 @@ template <Kind kind, class Height, class IsAbove>
          (is_above(b0.lo, a0.hi) & is_above(b1.lo, a1.hi));
 }
 
-/// For contact: whether one height is certainly above another one; NaN is never above.
+/// For contact (h = 0): whether one height is certainly above another height. NaN is above no height.
 struct IsAbove {
   template <class Real>
   auto operator()(const Real& lo, const Real& hi) const {

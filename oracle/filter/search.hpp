@@ -19,8 +19,8 @@ namespace nearmiss::certified {
 /// length.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
-/// The question to a search: only whether there is a contact, or also when the first contact is, either
-/// roughly or to neighbouring doubles.
+/// The question that a search must answer: only whether there is a contact, or also when the first contact
+/// is. The time of the first contact is asked for either roughly or between neighbouring doubles.
 enum class Asked : std::uint8_t { whether, when, when_precisely };
 
 /// Searches a part of the step for a contact, from the beginning of the part to its end. The search drops an
@@ -37,7 +37,7 @@ class ContactSearch {
 
   /// Returns `weights` (no collision in this part), `sign_change` (a collision), or `undecided`.
   FilterStage run() {
-    int budget = F_.error < HUGE_VAL ? 64 : 0;  // nothing can be said after overflow
+    int budget = F_.error < HUGE_VAL ? 64 : 0;  // after an overflow, no interval can be decided
     push({0, 1});
     while (count_ > 0) {
       --count_;
@@ -232,7 +232,7 @@ class ContactSearch {
   }
 
   /// Searches the interval as a part of its own. The interval remains unclear if it is longer than half of
-  /// this part, or if this part is too short or the result of too many zooms.
+  /// this part, if this part is too short, or if this part is itself the result of too many zooms.
   FilterStage zoom(const Enclosure& interval) {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;

@@ -250,7 +250,8 @@ struct Weights {
   [[nodiscard]] int agreement_on(double lo, double hi) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_on(lo, hi); });
   }
-  /// Like agreement_on(t - h, t + h), but faster. If h is small, both use equally sharp bounds.
+  /// Answers the same question as agreement_on(t - h, t + h), but faster. If h is small, both functions use
+  /// equally sharp bounds.
   [[nodiscard]] int agreement_near(double t, double h) const {
     return agreement([&](const Bernstein<Real, 3>& each) { return each.sign_near(t, h); });
   }
@@ -272,7 +273,7 @@ struct Weights {
   }
 };
 
-/// A guess of the component in which the normal is largest near a time.
+/// A guess in which of its components the normal is largest near a time.
 template <class Real>
 std::size_t largest_component(Kind kind, const StepPart<Real>& p, double t) {
   const auto near = [&](const Motion<Real>& m) {

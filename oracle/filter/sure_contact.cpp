@@ -51,7 +51,9 @@ struct CoordinatesAt {
 
 /// A vertex and an edge that stay in a plane perpendicular to axis k.
 struct InPlane {
-  Motion<double> from_start, to_end, along;  ///< start to vertex, vertex to end, and start to end of the edge
+  /// The vectors from the edge's start to the vertex, from the vertex to the edge's end, and from the edge's
+  /// start to its end.
+  Motion<double> from_start, to_end, along;
   std::size_t k;
 
   /// Whether the vertex certainly crosses the edge near t. `area` is the area of the triangle of the vertex
@@ -74,7 +76,7 @@ struct InPlane {
     return lies_between((k + 1) % 3) || lies_between((k + 2) % 3);
   }
 
-  /// Whether the vertex certainly crosses the edge, at a time that is a root of the area.
+  /// Whether the vertex certainly crosses the edge at a time at which the area of their triangle is 0.
   [[nodiscard]] bool cross() const {
     const Bernstein<double, 3> area = cross_component(from_start, along, k);
     if (common_sign(area.b, area.error) != 0) return false;
@@ -99,8 +101,8 @@ bool touch_at(const Query& query, double time) {
       return agree(side, orientation(x, 0, 2, 3, k)) && agree(side, orientation(x, 1, 0, 3, k)) &&
              agree(side, orientation(x, 1, 2, 0, k));
     }
-    // Edges that are not parallel meet if the ends of each edge are on different sides of the other's line,
-    // or on it.
+    // Two edges that are not parallel meet if, for each of them, its two ends are on different sides of the
+    // line through the other edge, or an end is on this line.
     const int of_0 = orientation(x, 2, 3, 0, k);
     const int of_1 = orientation(x, 2, 3, 1, k);
     const int of_2 = orientation(x, 0, 1, 2, k);

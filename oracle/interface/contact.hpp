@@ -19,8 +19,8 @@ namespace nearmiss {
 /// `toi` is infinite. If a coordinate is not finite, `min_distance` negative, or tmax above 1, the functions
 /// report a collision with toi = 0, because a simulation must not take that step.
 ///
-/// Points may have any type with operator[] or operator(). They have three coordinates; if their size() is 2,
-/// the third coordinate is 0.
+/// A point may be of any type that gives its coordinates by operator[] or operator(). A point has three
+/// coordinates; if its size() is 2, the third coordinate is taken to be 0.
 class ExactCCD {
  public:
   /// A point and a triangle.

@@ -24,12 +24,13 @@
 /// The namespace of the C++ interface, and of the header-only CCD.
 namespace nearmiss {
 
-/// What a function returns.
+/// The status that a function returns.
 enum class Status : int {
   ok = NEARMISS_OK,
-  not_finite = NEARMISS_NOT_FINITE,      ///< all queries are answered, some by Answer::none or NaN
-  bad_argument = NEARMISS_BAD_ARGUMENT,  ///< nothing is answered: a span of a wrong length, or a null pointer
-  out_of_memory = NEARMISS_OUT_OF_MEMORY,  ///< some queries are not answered
+  not_finite = NEARMISS_NOT_FINITE,  ///< every query is answered, but some answers are Answer::none or NaN
+  /// no query is answered, because a span has a wrong length or a pointer is null
+  bad_argument = NEARMISS_BAD_ARGUMENT,
+  out_of_memory = NEARMISS_OUT_OF_MEMORY,  ///< memory ran out, and some queries are not answered
 };
 
 /// The answers in a span of std::int8_t.
@@ -39,7 +40,7 @@ enum class Answer : std::int8_t {
   collision = NEARMISS_COLLISION,
 };
 
-/// The values in the span `decided_by`: what decided a query.
+/// The values that functions write to the span `decided_by`. Each value says what decided a query.
 enum class DecidedBy : std::uint8_t {
   boxes = NEARMISS_BY_BOXES,
   filter = NEARMISS_BY_FILTER,
@@ -66,18 +67,19 @@ inline const char* message(Status status) noexcept { return nearmiss_message(sta
 /// Queries of one kind in the caller's memory, which must outlive this object. Nothing is copied.
 class Queries {
  public:
-  /// Queries one after another. Each query is the coordinates of x0 x1 .. at t = 0, then those at t = 1.
-  /// Numbers at the end that do not make a whole query are ignored.
+  /// Queries that are stored one after another. Each query consists of the coordinates of x0 x1 .. at t = 0,
+  /// followed by the coordinates of the same points at t = 1. If too few numbers for a whole query are left
+  /// at the end, they are ignored.
   static Queries packed(Kind kind, std::span<const double> x) noexcept {
     return Queries(nearmiss_packed(to_c(kind), count_of(kind, x.size(), 6), x.data()));
   }
-  /// Queries one after another, in float.
+  /// Queries that are stored one after another, with coordinates of type float.
   static Queries packed(Kind kind, std::span<const float> x) noexcept {
     return Queries(nearmiss_packed_float(to_c(kind), count_of(kind, x.size(), 6), x.data()));
   }
 
-  /// Pairs of a moving mesh: the vertex numbers of each pair, and three coordinates for each vertex at
-  /// t = 0 and t = 1.
+  /// Pairs of primitives of a moving mesh: the vertex numbers of each pair, and three coordinates for each
+  /// vertex of the mesh at t = 0 and at t = 1.
   static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const double* start,
                          const double* end) noexcept {
     return Queries(
@@ -110,15 +112,15 @@ class Queries {
   [[nodiscard]] bool has_its_separations() const noexcept {
     return separations_ == any_number || separations_ == size();
   }
-  /// The layout, as the C functions take it.
+  /// The layout of the queries, in the form that the C functions take.
   [[nodiscard]] const nearmiss_queries& layout() const noexcept { return layout_; }
-  /// The layout, which may be changed.
+  /// The layout of the queries, which the caller may change.
   nearmiss_queries& layout() noexcept { return layout_; }
 
  private:
   static int to_c(Kind kind) { return static_cast<std::size_t>(kind) < kinds.size() ? bit_of(kind) : 0; }
-  /// The number of whole queries in `size` numbers, with `of_a_vertex` numbers for each vertex. An unknown
-  /// kind is refused later.
+  /// The number of whole queries that `size` numbers contain if each vertex takes `of_a_vertex` numbers. This
+  /// function accepts an unknown kind, which the C functions refuse later.
   static std::size_t count_of(Kind kind, std::size_t size, int of_a_vertex) {
     const int of_a_query = of_a_vertex * nearmiss_vertices(to_c(kind));
     return of_a_query > 0 ? size / static_cast<std::size_t>(of_a_query) : size;
@@ -228,8 +230,8 @@ inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noex
   });
 }
 
-/// One query: x0 x1 .. at t = 0, then at t = 1, as many numbers as the kind demands. With too few numbers,
-/// there is no answer.
+/// The coordinates of one query: those of x0 x1 .. at t = 0, then those of the same points at t = 1. If there
+/// are fewer numbers than the kind of query needs, the functions give no answer.
 using Coordinates = std::span<const double>;
 
 /// nearmiss_collides() for one query.

@@ -25,7 +25,8 @@ std::uint8_t decider(FilterStage stage) {
   }
 }
 
-/// From this number of queries on, deciding side by side is faster than deciding one by one.
+/// If there are at least this many queries, deciding them side by side is faster than deciding them one by
+/// one.
 constexpr std::size_t fewest_side_by_side = 4;
 
 struct Answers {
@@ -73,7 +74,8 @@ int for_each_time(const nearmiss_queries* queries, double width, const Set& set,
   return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     std::array<FilterStage, block_size> stages;
     std::array<KnownTime, block_size> times;
-    // For a `width` above 0, a search side by side may give another enclosure than a search one by one.
+    // If `width` is above 0, a search that treats several queries side by side may find another enclosure of
+    // a time than a search that treats one query at a time.
     const bool side_by_side =
         width == 0 && block.size() >= fewest_side_by_side && ask_for_contact(*queries, first, block.size());
     if (side_by_side) filter_for_times(block, stages, std::span(times).first(block.size()));

@@ -35,10 +35,12 @@ Integer determinant(const IntegerVector& a, const IntegerVector& b, const Intege
 
 // --- directions -------------------------------------------------------------------------------------------
 
-/// The direction of a ray: a vector or, if unset, (1, ε, ε²) for an infinitesimal ε > 0.
+/// The direction of a ray: a vector. If the vector is not set, the direction is (1, ε, ε²) for an
+/// infinitesimal ε > 0.
 using RayDirection = std::optional<IntegerVector>;
 
-/// The sign of n · d. For (1, ε, ε²), it is the sign of the first component of n that is not zero.
+/// The sign of the dot product n · d. If d is (1, ε, ε²), this is the sign of the first component of n that
+/// is not zero.
 int side(const IntegerVector& n, const RayDirection& d) {
   if (d) return sign(n * *d);
   for (int k = 0; k < 3; ++k)
@@ -59,7 +61,7 @@ const std::vector<RayDirection>& directions() {
 /// because the ray meets an edge or runs in the surface's plane.
 using Crossings = std::optional<int>;
 
-/// The crossings with a triangle that does not contain the origin.
+/// The number of times that a ray with direction d crosses a triangle that does not contain the origin.
 Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c,
                          const RayDirection& d) {
   const int volume = sign(determinant(a, b, c));
@@ -87,7 +89,8 @@ Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const I
 
 // --- bilinear patches -------------------------------------------------------------------------------------
 
-/// The image of a square: p00 (1-s)(1-t) + p10 s (1-t) + p01 (1-s) t + p11 s t. It may be flat.
+/// The image of a square under the map p00 (1-s)(1-t) + p10 s (1-t) + p01 (1-s) t + p11 s t. The image may be
+/// flat.
 struct BilinearPatch {
   IntegerVector p00, p10, p01, p11;
 };
@@ -192,9 +195,9 @@ Position position(const BilinearPatch& patch) {
   return result;
 }
 
-/// The crossings with a patch that does not contain the origin. Counts the crossings with two triangles
-/// instead, which together have the border of the patch. The origin is not between these triangles and the
-/// patch.
+/// The number of times that a ray with direction d crosses a patch that does not contain the origin. Instead
+/// of the patch, the function takes two triangles, which together have the border of the patch, and counts
+/// how often the ray crosses them. The origin is not between these triangles and the patch.
 Crossings cross_patch(const BilinearPatch& patch, const Position& position, const RayDirection& d) {
   const auto& [p00, p10, p01, p11] = patch;
   if (position.in_plane) {
@@ -259,7 +262,7 @@ IntegerVector difference(const Query& query, int i, int j, std::size_t time, con
 std::vector<BilinearPatch> boundary(const Query& query) {
   const Scale scale = integer_scale(query);
   std::array<std::array<std::array<IntegerVector, 2>, 4>, 4>
-      differences;  // between vertices of the two primitives
+      differences;  // between a vertex of one primitive and a vertex of the other
   const Topology& of = topology(query.kind);
   for (const auto& [i, j] : of.gaps)
     for (const std::size_t time : {0U, 1U}) differences[i][j][time] = difference(query, i, j, time, scale);

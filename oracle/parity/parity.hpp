@@ -7,8 +7,10 @@ namespace nearmiss {
 
 /// The result of root_parity().
 struct RootParity {
-  bool on_boundary = false;  ///< whether the origin is on the image of the boundary; this means a collision
-  bool odd = false;  ///< whether the number of roots, with multiplicity, is odd; false if `on_boundary`
+  /// whether the origin is on the image of the boundary of the domain of f; if so, the primitives collide
+  bool on_boundary = false;
+  /// whether f has an odd number of roots, counted with multiplicity; false if `on_boundary`
+  bool odd = false;
 
   /// The answer of a root-parity CCD, for which an even number of roots means no collision.
   [[nodiscard]] bool collision() const { return on_boundary || odd; }

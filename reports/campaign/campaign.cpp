@@ -26,7 +26,8 @@ namespace {
 /// Sorts the findings of a run's shards into the order in which a single machine would have found them, and
 /// drops the findings that a single machine would not have kept.
 void keep_first(std::vector<Finding>& findings) {
-  // All findings of a case come from one shard, which has them in order. A stable sort keeps this order.
+  // All findings of a case come from one shard, which lists them in the right order. A stable sort keeps this
+  // order.
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.place < b.place; });
   FirstFindings first;
@@ -36,7 +37,7 @@ void keep_first(std::vector<Finding>& findings) {
 std::string describe(const RunInfo& info) {
   std::string text;
   for (const auto& [name, value] : info)
-    if (name != "again")  // its value, a command, says no more than the other facts
+    if (name != "again")  // its value is a command, which says no more than the other facts
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
   return text;
 }
@@ -184,11 +185,13 @@ class RunMerger {
   }
 
   std::map<RunInfo, Run> runs_;
-  std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;  ///< facts and input of a task's first run
+  /// for each task, the facts of its first run, and the name of the input that has this run
+  std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;
   /// For each name of a plug-in or of a renamed subject: what the name stands for, and the first input that
   /// has it.
   std::map<std::string, std::pair<std::string, std::string>> by_subject_;
-  std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;  ///< the input that contains each shard
+  /// for each shard of a run, the name of the input that contains the shard
+  std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;
 };
 
 /// Whether the fact named `of` lists a name for which `condition` holds; true if the run does not have the
@@ -217,7 +220,8 @@ bool may_ask(const RunInfo& info, const CountsKey& key) {
                   }) &&
          any_name(info, "kinds", [&](std::string_view name) { return name == short_name(key.kind); }) &&
          any_name(info, "subjects", [&](std::string_view name) {
-           const bool names_itself = name.find_first_of("/:") < name.find('=');  // a plug-in without a NAME
+           // the user gave the plug-in no NAME, so the plug-in names itself
+           const bool names_itself = name.find_first_of("/:") < name.find('=');
            return names_itself || key.subject.starts_with(name.substr(0, name.find('=')));
          });
 }

@@ -67,13 +67,15 @@ inline constexpr std::string_view until_the_time_is_over = "until the time is ov
 
 /// One machine's part of a run.
 struct Shard {
-  std::uint64_t index = 0;  ///< position among `count` shards, from 0
+  std::uint64_t index = 0;  ///< the position of this shard among the `count` shards of the run, from 0
   std::uint64_t count = 1;
-  std::uint64_t cases = 0;  ///< number of cases decided so far, in order; a resumed run goes on after them
+  /// The number of cases that this shard has decided so far. It decides them in order, so a resumed run goes
+  /// on with the case after them.
+  std::uint64_t cases = 0;
   bool complete = false;
-  std::string started = {};  ///< date and time; only people read them, because clocks jump
+  std::string started = {};  ///< date and time of the start; only people read it, because clocks may jump
   double seconds = 0;        ///< run time so far
-  RunInfo environment = {};  ///< machine and compiler: only run times depend on them
+  RunInfo environment = {};  ///< facts about machine and compiler, on which only run times depend
 
   bool operator==(const Shard&) const = default;
 };
@@ -84,8 +86,9 @@ struct Shard {
 /// share a run.
 struct Run {
   RunInfo info;
-  std::vector<Shard> shards;      ///< by index
-  std::vector<Finding> findings;  ///< the first of each signature and class (FirstFindings), in order
+  std::vector<Shard> shards;  ///< by index
+  /// the first findings of each signature and class (FirstFindings), in the order of the cases
+  std::vector<Finding> findings;
   std::vector<ScenePicture> pictures = {};  ///< by step
 
   bool operator==(const Run&) const = default;

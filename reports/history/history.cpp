@@ -106,7 +106,7 @@ class Slowed {
   std::map<std::string, double> limits_;  // the time (ns per query) below which a slow subject is fast again
 };
 
-/// A sort of event, with the words for one change and for several.
+/// A sort of event, with the words for a single change and the words for several changes.
 struct Sort {
   std::string_view what, one, many;
 };
@@ -157,7 +157,8 @@ void add_changes(Told& told, Night& night) {
   }
 }
 
-/// The text of a code, such as "version 2", if `by_version`; else its build, with at most 12 digits.
+/// The text that names a subject's code. If `by_version` is true, the text is that of SubjectCode::text(),
+/// such as "version 2"; otherwise it is the build, cut off after 12 digits.
 std::string text_of(const SubjectCode& code, bool by_version) {
   return by_version ? code.text() : code.build.substr(0, std::string_view("commit 0123456789ab").size());
 }

@@ -75,7 +75,7 @@ struct NightEvent {
 struct Night {
   NightReport report;
   bool went_back = false;               ///< an earlier night has a later date, because the clock was set back
-  std::vector<NightEvent> events = {};  ///< changes that are not also events of an earlier night
+  std::vector<NightEvent> events = {};  ///< changes of this night that no event of an earlier night has shown
 };
 
 /// A way to fail (a signature), and the nights that saw it, as indices into History::nights.
@@ -83,14 +83,14 @@ struct WayToFail {
   std::string what, subject, signature;
   std::size_t first = 0, last = 0;
   std::size_t nights = 0;  ///< number of nights that saw this way to fail
-  std::uint64_t seen = 0;  ///< number of queries in all nights
-  bool lasts = false;      ///< seen in the last night in which the subject was asked
+  std::uint64_t seen = 0;  ///< number of queries that failed in this way, in all nights together
+  bool lasts = false;      ///< whether the last night in which the subject was asked saw this way to fail
   std::size_t gone = 0;    ///< the night whose report says that the failure is gone; 0 if no report says so
   std::string fixed = {};  ///< "in version 2", if that report says so
 };
 
 struct History {
-  std::vector<Night> nights;  ///< in the order of read_nights
+  std::vector<Night> nights;  ///< the nights, in the order in which read_nights returns them
   /// Lasting failures (`lasts`) come first, then the others. Each of these groups is sorted by the last night
   /// that saw the failure, the latest first, then by the number of queries, the largest first.
   std::vector<WayToFail> ways;
@@ -102,7 +102,7 @@ History make_history(std::vector<NightReport> nights);
 
 nlohmann::ordered_json history_json(const History& history);
 
-/// The last ten nights, a line of at most 100 columns each.
+/// A text about the last ten nights, with a line of at most 100 columns for each night.
 std::string describe(const History& history);
 
 }  // namespace nearmiss

@@ -157,7 +157,7 @@ bool has_store(const fs::path& folder) {
                      [](const auto& each) { return each.path().extension() == ".db"; });
 }
 
-/// The night in a folder; nothing if the folder is not a night's.
+/// The night in a folder; nothing if the folder does not belong to a night.
 std::optional<NightReport> read_night(const fs::path& folder) {
   NightReport night;
   const std::string name = folder.filename().string();

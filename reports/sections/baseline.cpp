@@ -25,14 +25,16 @@ std::map<std::string, std::set<std::string>> facts_of(const Campaign& campaign) 
   std::map<std::string, std::set<std::string>> facts;
   for (const Run& run : campaign.runs)
     for (const auto& [name, value] : run.info) facts[name].insert(value);
-  facts.erase("again");  // its values, commands, say no more than the other facts
+  // the values of the fact "again" are commands, which say no more than the other facts
+  facts.erase("again");
   return facts;
 }
 
 std::vector<ChangedFact> changed_facts(const Campaign& now, const Campaign& baseline) {
   auto facts = facts_of(now);
   auto earlier = facts_of(baseline);
-  for (const auto& [name, values] : earlier) facts[name];  // adds the facts that only the baseline has
+  // adds the names of the facts that only the baseline has
+  for (const auto& [name, values] : earlier) facts[name];
   const auto joined = [](const std::set<std::string>& values) {
     constexpr std::size_t most_shown = 6;
     return values.size() > most_shown ? fmt::format("{} values", values.size())
@@ -151,7 +153,7 @@ namespace {
 /// A line of `describe`: a title, such as "worse", and a text.
 struct Line {
   std::string title, subject;
-  const char* many;  ///< plural name of the changes that the lines list, such as "rates"
+  const char* many;  ///< the plural noun for the changes in lines with this title, such as "rates"
   std::string text;
 };
 
@@ -208,7 +210,7 @@ std::string describe(const Changes& changes, bool verbose) {
     std::size_t& count = counts.at({each.title, each.subject});
     if (verbose || count == 1)
       text += fmt::format("{}: {}\n", each.title, each.text);
-    else if (count > 1)  // the first of several lines
+    else if (count > 1)  // the first of several lines with the same title and subject stands for all of them
       text += fmt::format("{}: {} {} of {}, such as {}\n", each.title, with_separators(count), each.many,
                           each.subject.empty() ? "the oracle" : each.subject, each.text);
     if (!verbose) count = 0;

@@ -49,7 +49,8 @@ struct ChangedSignatures {
   /// Signatures that the baseline does not have, but that do not count as new, because chance explains them.
   /// They are rare, and their subject already has failures of the same sort in the baseline.
   std::vector<Signature> unseen_signatures = {};
-  double expected_unseen = 0;  ///< expected number of unseen signatures if nothing has changed
+  /// the expected number of unseen signatures if nothing has changed since the baseline
+  double expected_unseen = 0;
   /// Signatures that only the baseline has, if chance hardly explains that they are absent now.
   std::vector<Signature> gone_signatures = {};
   /// For each gone signature whose subject's code has changed since the signature was last seen: "in version
@@ -59,7 +60,7 @@ struct ChangedSignatures {
   std::vector<Signature> unrepeated_signatures = {};
   /// Signatures that the baseline also has, and that are no more frequent now than chance explains.
   std::vector<Signature> lasting_signatures = {};
-  std::map<Signature, Sightings> sightings = {};  ///< of all signatures of the baseline
+  std::map<Signature, Sightings> sightings = {};  ///< for each signature of the baseline, when it was seen
   /// Subjects that were asked now, but not in the baseline. Their failures are neither new nor lasting.
   std::vector<std::string> absent_subjects = {};
 };
@@ -132,10 +133,13 @@ struct ChangedTime {
   /// If the time is that of a subject as a whole, `family` is ChangedTime::all_families, and `kind` names all
   /// kinds, as in "vt, ee".
   std::string subject, kind, family;
-  double before = 0;    ///< ns in the baseline: the geometric mean over its campaigns
-  double expected = 0;  ///< ns expected now: `before` multiplied by the slowdown of everything else
-  double now = 0;       ///< ns
-  double p = 1;         ///< the probability of such a difference if nothing has changed
+  /// The time per query in the baseline, in ns: the geometric mean over the baseline's campaigns.
+  double before = 0;
+  /// The time per query that is expected now, in ns: `before` multiplied by the slowdown of everything else.
+  double expected = 0;
+  double now = 0;  ///< ns
+  /// The probability that the time differs at least this much from `expected` although nothing has changed.
+  double p = 1;
 
   static constexpr std::string_view all_families = "all families";
 
@@ -209,7 +213,8 @@ Changes changes(const Campaign& now, const Campaign& baseline);
 std::vector<std::string> lines_for_the_worse(const Changes& changes,
                                              const Failures& failing = usual_failures());
 
-/// A line for each subject and sort of change or, if `verbose`, for each change; "" if nothing has changed.
+/// A line for each subject and sort of change or, if `verbose`, a line for each single change. Returns "" if
+/// nothing has changed since the baseline.
 std::string describe(const Changes& changes, bool verbose = false);
 
 nlohmann::ordered_json changes_json(const Changes& changes);

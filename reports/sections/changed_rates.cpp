@@ -60,8 +60,8 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const C
   return pairs;
 }
 
-/// A pair of family and kind has few failures if it has at most this many. rates_where_few() tries all three
-/// thresholds, because larger campaigns have more failures.
+/// A pair of family and kind counts as one with few failures if it has at most this many failures. There are
+/// three such thresholds, because larger campaigns have more failures; rates_where_few() tries all three.
 constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 
 /// A subject and the name of one of its rates.
@@ -104,7 +104,7 @@ std::vector<ChangedRate> rates_where_few(const std::vector<ChangedRate>& pairs) 
   for (const std::uint64_t few : fews)
     for (const auto& [name, failures] : pairs_with_few(pairs, few)) {
       const auto& proportions = failures.proportions;
-      if (proportions.size() == 1) continue;  // pairs_of_rates already compares this pair
+      if (proportions.size() == 1) continue;  // pairs_of_rates() already compares the rate of a single pair
       ChangedRate sum{name.second,
                       name.first,
                       names_of_kinds(failures.kinds, ", "),

@@ -35,7 +35,8 @@ bool is_whole(const CountsKey& key) { return key.family == ChangedTime::all_fami
 
 double square(double x) { return x * x; }
 
-/// The median; for an even number of values, whichever of the two middle values is nearer to 0.
+/// The median of the values. If the number of values is even, this is the one of the two middle values that
+/// is nearer to 0.
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const double low = values[(values.size() - 1) / 2];
@@ -59,12 +60,12 @@ double sample_variance(const std::vector<double>& values) {
 /// A robust estimate of the variance of values around 0: outliers hardly change it.
 double usual_variance(std::vector<double> values) {
   for (double& each : values) each = std::abs(each);
-  return square(1.4826 * median(std::move(values)));  // exact for a normal distribution
+  return square(1.4826 * median(std::move(values)));  // the estimate is exact for a normal distribution
 }
 
 struct Variance {
   double value = 0;
-  double weight = 0;  ///< square(value) / (degrees of freedom of the estimate)
+  double weight = 0;  ///< square(value) divided by the degrees of freedom of the estimate
 
   Variance() = default;
   Variance(double v, double degrees_of_freedom) : value(v), weight(square(v) / degrees_of_freedom) {}
@@ -93,7 +94,8 @@ struct LogTime {
   Variance variance = {};
 };
 
-/// The mean over the batches in `times`; nothing unless two batches have different times.
+/// The mean log time over the batches in `times`. Returns nothing unless at least two batches have different
+/// times.
 std::optional<LogTime> log_time(const SubjectTimes& times) {
   constexpr double ps_per_ns = 1000;
   double queries = 0;
@@ -128,14 +130,15 @@ LogTimes log_times(const Statistics& statistics) {
 /// Logarithms of the ratios time now / time before, one for each earlier campaign. Each logarithm is the sum
 /// of two parts, `common` and `own`.
 struct Ratios {
-  std::vector<double> common = {};  ///< the part that other times share, for example on a busy machine
-  std::vector<double> own = {};     ///< the part that other times do not share
-  Variance sampling = {};           ///< sum of the variances of the earlier times
+  /// the part that is shared with the ratios of other times, for example because the machine is busy
+  std::vector<double> common = {};
+  std::vector<double> own = {};  ///< the part that is not shared with the ratios of other times
+  Variance sampling = {};        ///< sum of the variances of the earlier times
 
   [[nodiscard]] double change() const { return mean(own); }
   [[nodiscard]] double campaigns() const { return static_cast<double>(own.size()); }
-  /// The variance of (log time now - mean of the earlier log times), divided by the variance of a single log
-  /// time.
+  /// The variance of the difference between the log time now and the mean of the earlier log times, divided
+  /// by the variance of a single log time.
   [[nodiscard]] double of_difference() const { return 1 + 1 / campaigns(); }
 };
 
@@ -215,14 +218,16 @@ class Times {
     return sum;
   }
 
-  /// The additional variance of the change of a subject as a whole. Also that of a family's change, if the
-  /// subject has too few families to estimate the variance from the spread among them.
+  /// The additional variance of the change of a subject's time as a whole. If a subject has too few families
+  /// to estimate the variance from the spread among them, this is also the additional variance of the change
+  /// of each family's time.
   [[nodiscard]] Variance assumed_spread(const Ratios& ratios) const {
     const double spread = families_.size() > 1 ? spread_of_subject : spread_of_machine;
     return {square(spread) * ratios.of_difference() / 2, HUGE_VAL};
   }
 
-  /// The additional variance of a family's change, estimated from the spread among the subject's families.
+  /// The additional variance of the change of a single family's time. It is estimated from the spread among
+  /// the changes of the subject's families.
   [[nodiscard]] Variance spread_of_families(const std::string& subject) const {
     std::vector<double> changes;
     std::vector<double> variances;
@@ -239,9 +244,10 @@ class Times {
   }
 
   LogTimes now_;
-  std::map<std::string, std::size_t> families_;  // by subject: number of pairs of family and kind
-  std::map<std::string, int> kinds_;             // by subject: the bits of its kinds
-  std::map<std::string, double> whole_;          // by subject: mean log time of its families and kinds
+  // for each subject, the number of its pairs of family and kind
+  std::map<std::string, std::size_t> families_;
+  std::map<std::string, int> kinds_;     // for each subject, the bits of the kinds for which it has times
+  std::map<std::string, double> whole_;  // for each subject, the mean log time of its families and kinds
   std::map<CountsKey, Ratios> ratios_;
 };
 

@@ -59,9 +59,10 @@ struct Row {
 
 bool is_everywhere(const RightRange& range) { return range.exponents && range.elsewhere == FactorCounts(); }
 
-/// The range of a factor that all kinds have in common; nothing if their ranges differ or if no kind has a
-/// range. If the subject is right at all values of two kinds, the ranges of these kinds count as equal, even
-/// if they differ. A kind with too few queries is left out, unless all kinds have too few.
+/// The range of a factor at which a subject is right for all kinds. Returns nothing if the ranges of the
+/// kinds differ or if no kind has a range. If the subject is right at all values of two kinds, the ranges of
+/// these kinds count as equal, even if they differ. A kind with too few queries is left out, unless all kinds
+/// have too few.
 std::optional<RightRange> common(const Ranges& ranges, const std::string& factor) {
   std::optional<RightRange> all;
   const bool has_enough = std::ranges::any_of(
@@ -120,8 +121,8 @@ std::string values_of(const RightRange& range) {
                          : "no range";
 }
 
-/// Says how the subject fails at the values outside the range, for example "misses 58 of 310, reports 90 % of
-/// the rest". Empty if the subject does not fail there.
+/// Says how the subject fails at the values of the factor outside the range, for example "misses 58 of 310,
+/// reports 90 % of the rest". Returns "" if the subject does not fail at these values.
 std::string wrong_elsewhere(const RightRange& range) {
   const FactorCounts& counts = range.elsewhere;
   std::string wrong;

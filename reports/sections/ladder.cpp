@@ -32,7 +32,7 @@ constexpr int double_exponent = -52;
 /// the size of a query's pair.
 struct Rung : LadderPlace {
   std::string subject;
-  CountsSum sum;  ///< over all families and kinds
+  CountsSum sum;  ///< the sum of the subject's counters over all families and kinds
 
   [[nodiscard]] double claimed() const { return *unit; }
   /// Distance of the farthest false positive, divided by the claimed bound; 0 without false positives.
@@ -41,9 +41,9 @@ struct Rung : LadderPlace {
   [[nodiscard]] double farthest() const { return part() * claimed(); }
 };
 
-/// The farthest distance as a power of ε. The fit is a line through the logarithms of ε and of the farthest
-/// distance, by least squares, with one point for each scalar of an algorithm. A fit uses the queries of one
-/// origin, or of all origins.
+/// Says which power of ε the farthest distance follows. The fit is a line through the logarithms of ε and of
+/// the farthest distance, by least squares, with one point for each scalar of an algorithm. A fit uses the
+/// queries of one origin, or of all origins.
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
@@ -63,8 +63,8 @@ double claimed_distance(const std::string& algorithm, int exponent) {
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
-/// Whether Rung::part() is known. If it is below the histogram's lowest border, only an upper bound of it is
-/// known.
+/// Whether the value of Rung::part() is known. If the value is below the lowest border of the histogram, only
+/// this border is known, as an upper bound of the value.
 bool is_measured(const Rung& rung) { return rung.part() >= Histogram::border(1); }
 
 bool is_ladder(const std::vector<Rung>& all) {
@@ -109,8 +109,8 @@ namespace {
 /// origins if `only` is "".
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view only = "") {
   std::map<std::string, CountsSum> by_subject;
-  // The fits test the exponent of ε in the bound 41 B ε^¼ (B: the size of the pair), which holds for
-  // vertex-triangle and edge-edge.
+  // The fits test the exponent of ε in the distance bound 41 B ε^¼, where B is the size of the pair. This
+  // bound holds for vertex-triangle and edge-edge.
   for (const auto& [key, counts] : statistics.counts)
     if (is_of_meshes(key.kind) && (only.empty() || origin(key.family) == only))
       by_subject[key.subject].add(key.family, counts);

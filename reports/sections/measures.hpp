@@ -26,10 +26,12 @@ using Value = std::variant<std::monostate, std::uint64_t, double, Bin, std::stri
 /// A measure of a sum of counters, declared once for all files and tables.
 struct Measure {
   std::string_view key;              ///< in report.json
-  Value (*value)(const CountsSum&);  ///< computes the value that files show
-  std::string_view heading{};        ///< in tables on the terminal
-  std::string_view csv_after{};      ///< CSV files have the measure after this counter; "" if they lack it
-  std::string (*text)(const CountsSum&) = nullptr;  ///< text on the terminal; if null, that of `value`
+  Value (*value)(const CountsSum&);  ///< computes the value that files show from a sum of counters
+  std::string_view heading{};        ///< the heading of the measure's column in tables on the terminal
+  /// the counter after which CSV files have the measure; "" if they lack the measure
+  std::string_view csv_after{};
+  /// Makes the text that the terminal shows. If null, the terminal shows the result of `value`.
+  std::string (*text)(const CountsSum&) = nullptr;
 };
 
 /// The measures that report.json shows for every sum, in the order of report.json.
@@ -41,10 +43,11 @@ const Measure& measure(std::string_view key);
 
 using MeasureKeys = std::vector<std::string_view>;
 
-/// The headings of a table on the terminal: the given cells, then the measures.
+/// The headings of a table on the terminal: the given cells, then the headings of the measures.
 std::vector<std::string> headings(std::vector<std::string> cells, const MeasureKeys& measures);
 
-/// A row under these headings: the given cells, then the measures of the counters in `sum`.
+/// A row of a table that has these headings: the given cells, then the values of the measures for the
+/// counters in `sum`.
 std::vector<std::string> row_of(std::vector<std::string> cells, const MeasureKeys& measures,
                                 const CountsSum& sum);
 
@@ -66,7 +69,7 @@ void add_measures(nlohmann::ordered_json& json, const MeasureKeys& measures, con
 /// An object with rate_measures().
 nlohmann::ordered_json rates_json(const CountsSum& sum);
 
-/// The object of rates_json, with all other counters added.
+/// The object that rates_json() gives, with all other counters of the sum added.
 nlohmann::ordered_json counts_json(const CountsSum& sum);
 
 nlohmann::ordered_json oracle_json(const OracleCounts& counts);

@@ -45,21 +45,24 @@ nlohmann::ordered_json versions_json(const Statistics& statistics);
 /// The pairs of each scene and what became of them: a table for each scene over all its steps, with a line
 /// for each PairFate and a column for each kind.
 std::string funnel_tables(const Statistics& statistics);
-/// An object by step, then by kind; its values are those of funnel_json (measures.hpp).
+/// An object with a member for each step of a scene. Such a member has a member for each kind, whose value is
+/// that of funnel_json (measures.hpp).
 nlohmann::ordered_json funnels_json(const Statistics& statistics);
 
 /// A table for each simulated scene, with a line for each subject.
 std::string simulation_tables(const Statistics& statistics);
-/// An object by scene, then by subject. The object of a subject has the list "step" with the numbers of the
-/// steps, and for each counter of SimulatedStep a list of its values in these steps.
+/// An object with a member for each scene, which has a member for each subject. The member of a subject has
+/// the list "step" with the numbers of the steps, and for each counter of SimulatedStep a list of its values
+/// in these steps.
 nlohmann::ordered_json simulations_json(const Statistics& statistics);
 
 /// A table for each sweep of a family and each subject, with a row for each value of the family's parameter.
 /// Then a table for each sweep of an option, with a row for each class and value, and with the sweep's cliff:
 /// the neighbouring values between which the rate of misses changes most.
 std::string sweep_tables(const Statistics& statistics);
-/// An object by family, then by subject: a list with an entry for each value of the family's parameter, in
-/// increasing order.
+/// An object with a member for each swept family, which has a member for each subject. The member of a
+/// subject is a list with an entry for each value of the family's parameter, in increasing order of the
+/// values.
 nlohmann::ordered_json sweeps_json(const Statistics& statistics);
 /// An object with a list for each pattern NAME:KEY=*. The entries of a list are in the order of classes, and
 /// within a class in the order of values.

@@ -53,7 +53,8 @@ ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t numbe
 
 std::vector<ShownFinding> shown_findings(const Campaign& campaign) {
   FirstFindings first;
-  std::map<std::string, std::size_t> number;  // number of files so far, by name in lower case
+  // for each name in lower case, the number of files that were given this name so far
+  std::map<std::string, std::size_t> number;
   std::vector<ShownFinding> result;
   for (Finding& finding : campaign.findings())
     if (first.take(finding))

@@ -24,8 +24,9 @@ namespace {
 
 /// A number that is shown for each pair of versions.
 struct VersionMeasure {
-  std::string_view key;   ///< in report.json
-  std::string_view text;  ///< the words that follow the number; "" if the terminal does not show the number
+  std::string_view key;  ///< in report.json
+  /// the words that follow the number on the terminal; "" if the terminal does not show the number
+  std::string_view text;
   std::uint64_t (*value)(const VersionCounts&);
 };
 

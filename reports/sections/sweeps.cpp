@@ -23,10 +23,10 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// Sums of counters over all kinds, by the value of the parameter that a sweep varies.
+/// The counters of a subject, summed over all kinds, for each value of the parameter that a sweep varies.
 using Sweep = std::map<double, CountsSum>;
 
-/// Sums of counters over all kinds, by class of families and value of a subject's option.
+/// The counters, summed over all kinds, for each class of families and each value of a subject's option.
 using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
 
 /// Two neighbouring values of an option, and for each value the misses among the collisions.
@@ -114,7 +114,9 @@ std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
     const auto& [next, next_sum] = *std::next(at);
     if (next.first != key.first || (best && best->of != key.first)) continue;
     if (key.second < 0 && next.second >= 0)
-      continue;  // a negative value often means no limit, so a positive one is not its neighbour
+      // for many options, a negative value means that there is no limit, so a positive value is not its
+      // neighbour
+      continue;
     const Cliff cliff{key.first, key.second, next.second, missed(sum), missed(next_sum)};
     const bool is_there = cliff.missed.total > 0 && cliff.missed_next.total > 0 &&
                           fisher_test(cliff.missed_next, cliff.missed).either() < improbable;

@@ -39,7 +39,8 @@ struct TradeOff {
     return place.unit ? std::optional(all.counts.max_ratio() * *place.unit) : std::nullopt;
   }
 
-  /// Whether the subject may be on a front: it has no failure, except failures that count only on request.
+  /// Whether the subject may be on a Pareto front: it has no failures, except those that count only on
+  /// request.
   [[nodiscard]] bool sound() const {
     return in_common(failures_of(subject, all.counts), usual_failures()).empty();
   }
@@ -182,7 +183,7 @@ constexpr std::size_t decider_count = 4;
 /// answer has one of the last three names, that decider decided the query; otherwise "algorithm" did.
 constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer", "exact"};
 
-/// A subject's queries of a family, all kinds together, by the decider that decided them.
+/// How many queries of a family, of all kinds together, each decider of a subject decided.
 struct DeciderRow {
   std::string subject;
   std::string family;  ///< "" for all families; all steps of a scene count as one family

@@ -35,7 +35,7 @@ std::string of(std::uint64_t count, std::uint64_t total) {
   return fmt::format("{} of {}", with_separators(count), with_separators(total));
 }
 
-/// How often a failure happened in families of a class, and how often it could have happened.
+/// How often a failure happened in the families of one class, and how often it could have happened there.
 std::pair<std::uint64_t, std::uint64_t> count_and_total(const std::map<Kind, Counts>& by_kind,
                                                         const FailureInfo& failure) {
   std::uint64_t count = 0;

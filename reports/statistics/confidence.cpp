@@ -13,8 +13,8 @@ namespace {
 
 using Binomial = boost::math::binomial_distribution<>;
 
-/// The most trials for which Boost's functions converge reliably. Scaling more trials down to this number
-/// only widens intervals and raises p-values.
+/// The largest number of trials for which Boost's functions converge reliably. A larger number of trials is
+/// scaled down to this number, which only widens intervals and raises p-values.
 constexpr double most_trials = 0x1p40;
 
 std::pair<double, double> scaled(double trials, double successes) {
@@ -90,7 +90,7 @@ ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pair
     expected += both * static_cast<double>(now.total) / static_cast<double>(now.total + before.total);
     seen += static_cast<double>(now.count);
   }
-  if (std::abs(seen - expected) < 1) return {};  // the theorem does not apply, so both p-values are 1
+  if (std::abs(seen - expected) < 1) return {};  // Hoeffding's theorem does not apply, so both p-values are 1
   const auto [of, successes] = scaled(trials, seen);
   return tails(Binomial(of, expected / trials), std::round(successes), 0.0);
 }

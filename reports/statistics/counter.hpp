@@ -19,7 +19,7 @@ namespace nearmiss {
 /// A counter, or another member that merges as a counter does, such as a histogram or a list of cases.
 template <class Owner, class Member>
 struct Counter {
-  std::string_view name;  ///< key in the store, and column of statistics.csv
+  std::string_view name;  ///< the counter's key in the store, and its column in statistics.csv
   Member Owner::*member;
   std::string_view json_key = name;
   /// Key of the object in report.json that contains the counter. If empty, the owner's object contains the

@@ -25,9 +25,11 @@ namespace nearmiss {
 /// among the farthest apart, or a time that is among the earliest or the latest relative to t*, the exact
 /// earliest time.
 struct FarCase {
-  double ratio = 0;  ///< as Outcome::ratio, in the unit Counts::distance_unit; or |time - t*|
+  /// Of a false positive: its Outcome::ratio, in the unit Counts::distance_unit. Of a time: |time - t*|.
+  double ratio = 0;
   Query query;
-  std::string provenance;  ///< "family:seed:index", or the file and line
+  /// "family:seed:index" or, for a query from a file, the name of the file and the line
+  std::string provenance;
 
   bool operator==(const FarCase&) const = default;
 };
@@ -41,8 +43,8 @@ void keep_farthest(std::vector<FarCase>& kept, double ratio, const Query& query,
 
 /// How the time that a subject gave for a true collision compares with t*, the exact earliest time.
 struct TimeError {
-  double early = 0;  ///< t* - time if that is positive, as precise as Outcome::ratio
-  double after = 0;  ///< time - t* if that is positive, as precise as Outcome::ratio
+  double early = 0;  ///< t* - time if the time is before t*; as precise as Outcome::ratio
+  double after = 0;  ///< time - t* if the time is after t*; as precise as Outcome::ratio
   /// How early the time is, measured as a distance: an upper bound of how far a vertex of one primitive moves
   /// relative to a vertex of the other between the time and t*. The distance is divided by B, the size of the
   /// pair, and rounded.
@@ -107,9 +109,9 @@ struct Counts {
   std::array<std::uint64_t, stage_count> false_by_stage{};   ///< false positives by the stage that accepted
   std::array<std::uint64_t, rejection_count> rejected_by{};  ///< queries not reported, by reason
   Histogram distances;                                       ///< distances of false positives (distance_unit)
-  std::vector<FarCase> farthest;                             ///< farthest first, at most far_cases
-  Histogram early;                                           ///< t* - time, of times that are not after t*
-  Histogram after;                                           ///< time - t*, of times after t*
+  std::vector<FarCase> farthest;  ///< false positives, the farthest first, at most far_cases
+  Histogram early;                ///< t* - time, of times that are not after t*
+  Histogram after;                ///< time - t*, of times after t*
   Histogram travelled;            ///< TimeError::travelled, of times that are not after t*
   std::vector<FarCase> earliest;  ///< times with the largest t* - time, at most far_cases
   std::vector<FarCase> latest;    ///< times with the largest time - t*, at most far_cases
@@ -200,8 +202,8 @@ struct Counts {
     constexpr auto stage = static_cast<std::size_t>(Stage::unknown);
     return true_by_stage[stage] + false_by_stage[stage];
   }
-  /// The sort of the subject's times: lower bounds if the subject promised this of all its times, estimates
-  /// otherwise.
+  /// Whether the subject's times are lower bounds or estimates. They count as lower bounds if the subject
+  /// promised of each of its times that it is a lower bound.
   [[nodiscard]] TimeSort time_sort() const {
     if (times_given == 0) return TimeSort::none;
     return times_promised == times_given ? TimeSort::lower_bound : TimeSort::estimate;

@@ -26,8 +26,10 @@ struct Extreme {
   };
 
   Of of{};
-  std::string name;           ///< name of the tolerance or tests
-  double value = 0;           ///< factor of the tolerance (the others are the paper's); or distance / bound
+  std::string name;  ///< name of the tolerance or tests
+  /// The factor by which the tolerance is multiplied, while all other tolerances are those of the paper. For
+  /// a group of tests: the ratio distance / bound.
+  double value = 0;
   Query query;                ///< meaningless if nothing was found
   std::string provenance;     ///< origin of the query; empty if nothing was found
   std::uint64_t queries = 0;  ///< number of collisions or false positives that were tried
@@ -41,10 +43,10 @@ struct Extreme {
   bool operator==(const Extreme&) const = default;
 };
 
-/// The result of a search that has found nothing yet.
+/// The state of a search before it has found anything.
 Extreme nothing_found(Extreme::Of of, std::string name);
 
-/// Names of the values of Extreme::Of in files and reports, in order.
+/// The names of the values of Extreme::Of, as files and reports write them, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 3> extreme_names{"accepting-tolerance", "keeping-tolerance",
                                                                "distance"};
 

@@ -67,7 +67,7 @@ std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
 std::vector<CommonFactors> common_factors(const FactorTable& table) {
   std::vector<CommonFactors> best;
   for (const auto& [key, with] : table) {
-    // right_ranges() covers the factors whose values are powers of two.
+    // Factors whose values are powers of two are left out, because right_ranges() covers them.
     if (key.values.empty() || with.false_negatives == 0 || power(key.values)) continue;
     FactorKey all = key;
     all.values.clear();

@@ -23,7 +23,9 @@ struct FactorKey {
   std::string subject;
   Kind kind{};
   std::string family;
-  std::string values;  ///< "" for all queries, one value "scale=1e-3", or two: "when=at-1 scale=1e-3"
+  /// The values of factors that the queries have: one value "scale=1e-3", or two values "when=at-1
+  /// scale=1e-3"; "" for all queries, whatever their values.
+  std::string values;
 
   bool operator==(const FactorKey&) const = default;
   bool operator<(const FactorKey& other) const {
@@ -57,14 +59,14 @@ using FactorTable = std::map<FactorKey, FactorCounts>;
 void count_answer(FactorTable& table, const FactorKey& key, std::span<const std::string> values,
                   bool collides, bool reported);
 
-/// A value of one factor, or one value of each of two factors, that many of a subject's misses have in
-/// common.
+/// A property that many of a subject's misses share: a value of one factor, or a pair of values of two
+/// factors.
 struct CommonFactors {
   FactorKey key;
-  FactorCounts with;  ///< the answers to queries that have the values
+  FactorCounts with;  ///< the answers to the queries that have the property
   FactorCounts all;
 
-  [[nodiscard]] double share() const;  ///< share of the misses that have the values
+  [[nodiscard]] double share() const;  ///< the share of the subject's misses that have the property
   [[nodiscard]] double share_of_collisions() const;
 };
 
@@ -85,8 +87,8 @@ struct RightRange {
   /// Nothing if there is no such sequence or it has no collisions, if misses next to the sequence are so rare
   /// that it may lack misses by chance, or if `too_few`.
   std::optional<std::pair<int, int>> exponents;
-  bool too_few = false;    ///< whether the values have fewer than two collisions on average
-  FactorCounts elsewhere;  ///< the answers at all other values
+  bool too_few = false;  ///< whether the values of the factor have fewer than two collisions each, on average
+  FactorCounts elsewhere;  ///< the answers at all values that are not in the range `exponents`
 };
 
 /// A range for each subject, kind and factor whose values are powers of two, in alphabetical order of

@@ -29,7 +29,7 @@ std::uint64_t unjudged(const Counts& counts) {
 std::uint64_t none(const Counts& /*counts*/) { return 0; }
 std::uint64_t queries(const Counts& counts) { return counts.queries; }
 
-// In the order of FailureKind.
+// The table of failures. Its rows are in the order of the enumeration FailureKind.
 constexpr std::array<FailureInfo, 12> infos{{
     {FailureKind::oracle_disagreement, "oracle-disagreement", false, "", "", "", none, none},
     {FailureKind::wrong_truth, "wrong-truth", false, "", "", "", none, none},

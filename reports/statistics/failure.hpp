@@ -26,7 +26,7 @@ enum class FailureKind : std::uint8_t {
   fault,         ///< there is no answer, for a reason other than time or a contract
   unjudged,      ///< the subject was not asked any query, or did not answer any in time
   committed,     ///< contact in the rounded step to a sound lower bound, with no promise about that step
-  unknown,       ///< the subject could not tell
+  unknown,       ///< the subject could not tell whether the primitives collide
   contract,      ///< a query was not asked, because it breaks the subject's contract
   slow,          ///< a query took longer than the time limit, or was not asked after several that did
 };
@@ -34,20 +34,21 @@ enum class FailureKind : std::uint8_t {
 /// A row of the table of failures.
 struct FailureInfo {
   FailureKind kind;
-  std::string_view name;  ///< in files, in reports, and for --fail-on
+  std::string_view name;  ///< the name of the kind in files, in reports, and for the option --fail-on
   bool on_request;        ///< whether it counts only on request
   /// The words for a text like "missed 3 of 50 ordinary vt collisions": the verb ("missed"), and the noun in
   /// the singular and in the plural ("collision", "collisions"). They are "" for failures of the oracle.
   std::string_view verb, one, many;
   std::uint64_t (*count)(const Counts&);  ///< how often a subject failed in this way, out of `total`
   std::uint64_t (*total)(const Counts&);
-  QueryClassCounts Counts::*by_class = nullptr;  ///< `count` by the class of the query; null if not counted
+  /// The member that divides `count` by the class of the query; null if the failure is not counted by class.
+  QueryClassCounts Counts::*by_class = nullptr;
 };
 
 const FailureInfo& failure_info(FailureKind kind);
 inline std::string_view name(FailureKind kind) { return failure_info(kind).name; }
 
-/// Kinds of failure, the gravest first.
+/// A set of kinds of failure. Its order is from the gravest kind to the least grave.
 using Failures = std::set<FailureKind>;
 
 /// all_failures() has all kinds of failure, usual_failures() those that count without a request (--fail-on).

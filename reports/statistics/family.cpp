@@ -93,7 +93,8 @@ static_assert(classes.size() == static_cast<std::size_t>(QueryClass::unclassifie
 QueryClass class_in_table(std::string_view name) {
   const std::string word = ' ' + std::string(name) + ' ';
   const auto has_word = [&](std::string_view words) { return words.find(word) != words.npos; };
-  const bool is_word = name.find(' ') == name.npos;  // a forged store may have any name
+  // a name with a blank is no word of the table; such a name may come from a forged store
+  const bool is_word = name.find(' ') == name.npos;
   const auto found = is_word ? std::ranges::find_if(classes, has_word) : classes.end();
   return static_cast<QueryClass>(found - classes.begin());
 }
@@ -102,7 +103,8 @@ QueryClass class_in_table(std::string_view name) {
 
 QueryClass class_of(std::string_view family) {
   if (family.starts_with("scene:")) return QueryClass::ordinary;
-  if (family.starts_with("sim:"))  // the class of a simulation with options or sizes is not known
+  // if the name of a simulation contains options or sizes, the class of the simulation is not known
+  if (family.starts_with("sim:"))
     return family.find_first_of("@~:", 4) == std::string_view::npos ? QueryClass::ordinary
                                                                     : QueryClass::unclassified;
   const FamilyName name(family);

@@ -14,7 +14,7 @@
 
 namespace nearmiss {
 
-/// Whether a family's queries are drawn at random. Cases and scenes are not.
+/// Whether a family's queries are drawn at random. The queries of cases and scenes are not drawn at random.
 bool is_random(std::string_view family);
 
 /// The family under which a report shows a family's queries. A directed search has a family for each subject;
@@ -27,18 +27,19 @@ std::string shown_family(std::string_view family);
 std::string_view origin(std::string_view family);
 
 /// A name for the random draws of a family. The steps (NAME@VALUE) of a sweep make the same draws and differ
-/// only in the value of the parameter, so they get the same name. A family that is no step of a sweep gets
-/// its own name.
+/// only in the value of the parameter, so they get the same name. For a family that is no step of a sweep,
+/// this name is the family's own name.
 std::string draws_of(std::string_view family);
 
 /// The largest number of a subject's queries that share one random draw: the number of steps of the longest
 /// sweep.
 std::uint64_t most_repeats(const Statistics& statistics, std::string_view subject);
 
-/// The statistics by shown_family: the counters of families that a report shows as one family are added up.
+/// The same statistics, in which shown_family replaces each family's name: the counters of families that a
+/// report shows as one family are added up.
 Statistics by_shown_family(const Statistics& statistics);
 
-/// The scene of a step: "scene:NAME" for the step "scene:NAME#STEP".
+/// The name of the scene to which a step belongs: "scene:NAME" for the step "scene:NAME#STEP".
 std::string scene_of(const std::string& step);
 
 /// The class of a family by its name, NAME or NAME@VALUE. Scenes, and simulations with the usual options, are
@@ -54,7 +55,7 @@ struct ClassKey {
   auto operator<=>(const ClassKey&) const = default;
 };
 
-/// Sums over the families of each class. A class without queries is left out.
+/// Sums over the families of each class. The map has no entry for a class without queries.
 std::map<ClassKey, CountsSum> by_class(const Statistics& statistics);
 
 }  // namespace nearmiss

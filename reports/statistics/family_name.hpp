@@ -18,7 +18,8 @@ inline constexpr std::string_view early_search_family = "search-early-";
 inline constexpr std::string_view vertices_prefix = "v-";
 
 /// The parts of a family's name: NAME, or NAME@VALUE with a fixed parameter; ~SEPARATION may follow either.
-/// Only this struct knows the form of names. The name must outlive its parts.
+/// No other code takes the names of families apart. The parts point into the text of the name, so this text
+/// must outlive them.
 struct FamilyName {
   std::string_view base;  ///< NAME; for a directed search, NAME includes the name of the search's subject
   std::string_view root;  ///< NAME without "v-"

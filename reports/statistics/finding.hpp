@@ -23,9 +23,10 @@ struct Finding {
     oracle_disagreement,
     truth_mismatch,
     fault,
-    late,        ///< a time is too late, although the subject promised a lower bound
-    committed,   ///< a promised lower bound is sound, but the rounded step to it has contact before its end
-    unsafe_step  ///< as `committed`, although the subject promises a step without contact
+    late,       ///< the subject's time is later than t*, although the subject promises a lower bound of t*
+    committed,  ///< a promised lower bound is sound, but the rounded step to it has contact before its end
+    /// The rounded step has contact before its end, although the subject promises a step without contact.
+    unsafe_step
   };
 
   What what{};
@@ -58,7 +59,7 @@ struct Finding {
   bool operator==(const Finding&) const = default;
 };
 
-/// Names of the sorts of failure in files and reports, in order.
+/// The names of the sorts of failure, as files and reports write them, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 8> what_names{
     "false-negative", "refuted-bound", "oracle-disagreement", "truth-mismatch",
     "fault",          "late",          "committed",           "unsafe-step"};
@@ -94,19 +95,20 @@ inline Signature signature_of(const Finding& finding) {
   return {finding.what, finding.subject, finding.signature};
 }
 
-/// Number of findings of each signature and class that are kept and shown; Statistics::seen counts all
-/// findings.
+/// The largest number of findings of each signature and class that are kept and shown; Statistics::seen
+/// counts all findings.
 inline constexpr std::size_t findings_kept = 3;
 
-/// Takes findings in order, and picks the first ones of each signature in each class of queries. Findings on
-/// which an earlier version of the CCD does not fail are counted separately.
+/// Takes the findings of a campaign in their order, and picks the first findings of each signature in each
+/// class of queries. Findings on which an earlier version of the CCD does not fail are counted separately.
 class FirstFindings {
  public:
   /// Counts the finding. Returns its number among the findings of its signature and class, from 1 on.
   std::size_t count(const Finding& finding) {
     return ++counted_[{signature_of(finding), finding.query_class, finding.broken_since}];
   }
-  /// Counts the finding. Returns whether it is among the first ones of its signature and class.
+  /// Counts the finding. Returns whether the finding is among the first `findings_kept` findings of its
+  /// signature and class.
   bool take(const Finding& finding) { return count(finding) <= findings_kept; }
 
  private:

@@ -24,7 +24,7 @@ enum class PairFate : std::uint8_t {
 
 inline constexpr std::size_t pair_fate_count = 5;
 
-/// Names of the fates in files, in order.
+/// The names of the fates, as files write them, in the order of the enumeration.
 inline constexpr std::array<std::string_view, pair_fate_count> pair_fate_names{
     "boxes_apart", "share_vertex", "at_rest", "in_translation", "asked"};
 
@@ -33,7 +33,8 @@ struct Funnel {
   std::array<std::uint64_t, pair_fate_count> pairs{};  ///< number of pairs with each PairFate
   std::uint64_t touching = 0;                          ///< pairs at rest or in translation that collide
   std::uint64_t finding_ns = 0;                        ///< time to find the pairs whose boxes meet
-  std::uint64_t deciding_ns = 0;  ///< time to determine fates, and to decide pairs at rest or in translation
+  /// Time to determine the fates of the pairs, and to decide pairs at rest or in translation.
+  std::uint64_t deciding_ns = 0;
 
   static constexpr auto counters() {
     return std::tuple{NamedCounts<Funnel, pair_fate_count>{.name = "pairs",

@@ -15,7 +15,9 @@ namespace nearmiss {
 enum class DistanceUnit : std::uint8_t {
   claimed_bound,
   wangs_bound,
-  both,  ///< both occur: versions of a subject with and without a claim were added up
+  /// Some distances are divided by claimed bounds and others by wang's bounds, because the counters of
+  /// versions of a subject with and without a claimed bound were added up.
+  both,
 };
 
 constexpr std::string_view name(DistanceUnit unit) {

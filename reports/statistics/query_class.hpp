@@ -11,7 +11,7 @@
 namespace nearmiss {
 
 /// How near a query, or most queries of a family, are to those of a simulation. fuzz/families/README.md has
-/// the criterion.
+/// the criterion by which queries are classified.
 enum class QueryClass : std::uint8_t {
   ordinary,     ///< queries that a simulation makes in every step
   degenerate,   ///< queries that a simulation makes now and then
@@ -19,7 +19,7 @@ enum class QueryClass : std::uint8_t {
   unclassified  ///< unknown, as for cases, directed searches, and families that this program does not know
 };
 
-/// Names in files and reports, in order.
+/// The names of the classes, as files and reports write them, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 4> class_names{"ordinary", "degenerate", "extreme",
                                                              "unclassified"};
 

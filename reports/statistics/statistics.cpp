@@ -68,7 +68,7 @@ std::uint64_t Statistics::queries_of(const std::string& subject) const {
 
 namespace {
 
-/// The sum of `count` over the counters of all subjects, kinds and families.
+/// The sum of the results of `count` for the counters of all subjects, kinds and families.
 template <class Count>
 std::uint64_t sum_of(const std::map<CountsKey, Counts>& counts, const Count& count) {
   return std::accumulate(

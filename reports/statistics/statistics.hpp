@@ -78,12 +78,12 @@ struct CountsSum {
 struct Statistics {
   std::map<CountsKey, Counts> counts;
   std::map<std::pair<Kind, std::string>, OracleCounts> oracle;  ///< by kind and family
-  std::map<std::pair<std::string, Kind>, Funnel> funnels;       ///< by step of a scene
+  std::map<std::pair<std::string, Kind>, Funnel> funnels;       ///< by step of a scene, and kind
   SimulatedSteps simulated;                                     ///< steps of simulations
   FactorTable factors;                      ///< answers in the families whose queries have factors
   VersionTable versions;                    ///< compares versions of CCDs, query by query
   std::map<Signature, std::uint64_t> seen;  ///< number of queries with each signature
-  std::map<std::string, Extreme> extremes;  ///< by the name of the tolerance or of the tests
+  std::map<std::string, Extreme> extremes;  ///< the key is the name of the tolerance or of the tests
   std::uint64_t oracle_disagreements = 0;   ///< queries about which the exact methods disagree
   std::uint64_t mismatches_with_recorded_truth =
       0;  ///< cases for which the oracle contradicts the recorded truth
@@ -95,7 +95,7 @@ struct Statistics {
 
   void merge(const Statistics& other);
 
-  /// The counters of each subject and kind, summed over families; key.family is empty.
+  /// The counters of each subject and kind, summed over families. The family in each key is empty.
   [[nodiscard]] std::map<CountsKey, CountsSum> by_subject_and_kind() const;
   [[nodiscard]] OracleCounts oracle_total() const;
   /// The number of queries that failed with this signature.

@@ -60,8 +60,8 @@ std::optional<double> TimeHistogram::quantile(double part) const {
 
 namespace {
 
-/// The order of cases, slowest first. The provenance breaks ties, so that merging in any order keeps the
-/// same cases.
+/// The order of cases, slowest first. Cases with equal run times are ordered by their provenance, so that
+/// merging in any order keeps the same cases.
 bool slower(const SlowCase& a, const SlowCase& b) {
   if (a.nanoseconds != b.nanoseconds) return a.nanoseconds > b.nanoseconds;
   return a.provenance < b.provenance;

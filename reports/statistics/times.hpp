@@ -19,7 +19,7 @@
 namespace nearmiss {
 
 /// The run times of batches of queries, as times per query with three significant digits. Times are at least
-/// 1 ns, because a clock cannot distinguish a shorter time from that of a subject that does nothing.
+/// 1 ns, because a clock cannot distinguish a shorter time from the run time of a subject that does nothing.
 class BatchTimes {
  public:
   void add(const BatchTime& time);

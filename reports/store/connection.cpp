@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// How long to wait while another process reads, opens or closes a store. The wait is short, so that a
-/// process that is told to stop does so within two seconds.
+/// process that is told to stop ends within two seconds.
 constexpr int patience_ms = 1500;
 
 /// Throws Error if the journal beside a store names another file, because SQLite would delete that file when
@@ -106,8 +106,10 @@ Connection::Connection(const fs::path& file, int flags)
 
 Connection::~Connection() {
   try {
-    db.setBusyTimeout(patience_ms / 3);       // waits less, because all results are already saved
-    db.exec("PRAGMA journal_mode = DELETE");  // removes the log, for readers without write permission
+    // Waits less than a save does, because all results are already saved.
+    db.setBusyTimeout(patience_ms / 3);
+    // Removes the log, so that users without write permission can read the store.
+    db.exec("PRAGMA journal_mode = DELETE");
   } catch (const SQLite::Exception&) {
     return;  // the log stays next to the file, so nothing is lost
   }

@@ -9,8 +9,8 @@
 namespace nearmiss {
 
 /// A lock held by the process that writes a file. While the process holds the lock, FILE.lock exists next to
-/// the file. A symbolic link to the file leads to the same lock. The system releases the lock however the
-/// process ends.
+/// the file. A symbolic link to the file leads to the same lock. The operating system releases the lock when
+/// the process ends, in whatever way it ends.
 class FileLock {
  public:
   /// Takes the lock. Throws Error if another process holds it, if it cannot be made, or if the file has a

@@ -27,8 +27,9 @@ using Check = std::function<void()>;
 constexpr std::uint64_t only_run = 0;
 
 // The tables whose rows belong to runs. Runs are numbered from 0.
-using Shards = std::map<std::pair<std::uint64_t, std::uint64_t>, Shard>;      ///< by run and index
-using Findings = std::map<std::pair<std::uint64_t, std::uint64_t>, Finding>;  ///< by run and place in the run
+using Shards = std::map<std::pair<std::uint64_t, std::uint64_t>, Shard>;  ///< by run and index
+/// By run and by the finding's place in the run.
+using Findings = std::map<std::pair<std::uint64_t, std::uint64_t>, Finding>;
 using Pictures = std::map<std::pair<std::uint64_t, std::string>, json::object_t>;  ///< by run and step
 
 /// Calls `use` with the name and the rows of each table of counters.
@@ -108,8 +109,8 @@ void write_campaign(Save& save, const Campaign& campaign) {
   write_statistics(save, campaign.statistics);
 }
 
-/// Reads a campaign. A run whose row was lost has no facts. Throws Error for an invalid value, and passes on
-/// exceptions of `read`.
+/// Reads a campaign. If the row of a run was lost, the run has no facts. Throws Error for an invalid value,
+/// and passes on exceptions of `read`.
 Campaign read_campaign(Reader& read) {
   std::vector<Run> runs = read_runs(read);
   return {std::move(runs), read_statistics(read)};
@@ -157,7 +158,8 @@ Salvage read_intact(SQLite::Database& db, const Check& check = {}) {
   return salvage;
 }
 
-/// The end of a message about a damaged store: how to salvage it, and how much that would save.
+/// The end of a message about a damaged store: how to salvage it, and how much of the store a salvage would
+/// save.
 std::string advice(const fs::path& file) {
   try {
     const Salvage salvage = salvage_campaign(file);

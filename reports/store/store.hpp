@@ -19,9 +19,9 @@ class StoreIsLocked : public Error {
   using Error::Error;
 };
 
-/// The file to which a shard (one machine's part of a run) saves its results while it runs. Every save is
-/// one transaction: the file gets all of it or nothing. Earlier saves survive a full disk, an interrupt or a
-/// kill. Only one process at a time writes a file; others may read it meanwhile.
+/// The file to which a shard (one machine's part of a run) saves its results while it runs. Every save is one
+/// transaction: the file gets all results of the save, or none of them. Earlier saves survive a full disk, an
+/// interrupt or a kill. Only one process at a time writes a file; others may read it meanwhile.
 class Store {
  public:
   /// Whether the file is a store that can be resumed. A kill while a store is made may leave a database

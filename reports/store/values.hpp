@@ -28,7 +28,7 @@ inline constexpr auto kind_names = [] {
   for (const Kind kind : kinds) names[static_cast<std::size_t>(kind)] = short_name(kind);
   return names;
 }();
-/// The names of the enumerators of a type, in order.
+/// The names of the enumerators of a type, in the order of the enumeration.
 constexpr const auto& names_of(Kind) { return kind_names; }
 constexpr const auto& names_of(Finding::What) { return what_names; }
 constexpr const auto& names_of(QueryClass) { return class_names; }

@@ -12,7 +12,8 @@
 
 namespace nearmiss {
 
-/// A table in columns. The first `left_aligned` columns are aligned left, the others right.
+/// A table in columns. The first `left_aligned` columns are aligned left, and the other columns are aligned
+/// right.
 std::string columns(const std::vector<std::vector<std::string>>& rows, std::size_t left_aligned);
 
 /// 1234567 as "1,234,567".
@@ -33,7 +34,7 @@ std::string whole_ns(const std::optional<double>& ns);
 std::string fraction_of_bound(double ratio);
 
 /// "at 0.987 of the bound", "at 1.5 times the bound", or "beyond a bound of 0". If the subject claims no
-/// bound, the text says so: "at 12.3 times wang's bound (it claims none)".
+/// bound, the text says that the subject claims none: "at 12.3 times wang's bound (it claims none)".
 std::string times_the_bound(double ratio, DistanceUnit unit = DistanceUnit::claimed_bound);
 
 /// fraction_of_bound(ratio), with "**" if the subject claims no bound; `unit_footnote` explains the mark.

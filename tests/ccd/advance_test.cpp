@@ -34,8 +34,10 @@ Query edges_at(double x, double y, double z) {
 
 TEST(Advance, IsJustBeforeTheDistanceIsTheSeparation) {
   expect_just_before(falling_vertex(0.25, 0.25, 1, -1), 0.5, 0.25);  // the face is nearest
-  expect_just_before(falling_vertex(0.5, -3, 9, -1), 5, 0.5);        // an edge: 3² + 4² = 5²
-  expect_just_before(falling_vertex(-2, -3, 11, -1), 7, 5.0 / 12);   // a corner: 2² + 3² + 6² = 7²
+  // The closest point lies on an edge: 3² + 4² = 5².
+  expect_just_before(falling_vertex(0.5, -3, 9, -1), 5, 0.5);
+  // The closest point is a corner: 2² + 3² + 6² = 7².
+  expect_just_before(falling_vertex(-2, -3, 11, -1), 7, 5.0 / 12);
   expect_just_before(falling_edge(1, -3), 0.5, 0.125);
 }
 
@@ -58,8 +60,9 @@ TEST(Advance, MeasuresTheDistanceOfEveryFeatureOfEdges) {
     EXPECT_FALSE(decide(with_separation(query, distance * (1 - 1e-9))).hit) << distance;
   };
   expect_distance(edges_at(-0.5, 0.5, 2), 2);  // the lines' nearest points
-  expect_distance(edges_at(3, 0.5, 4), 5);     // an end of one edge and the inside of the other
-  expect_distance(edges_at(2, 4, 6), 7);       // two ends
+  // The closest points are an end of one edge and a point inside the other edge.
+  expect_distance(edges_at(3, 0.5, 4), 5);
+  expect_distance(edges_at(2, 4, 6), 7);  // two ends
   expect_distance(edges_at(-3, 0.5, 1.5), 2.5);
 }
 

@@ -87,7 +87,7 @@ TEST_F(PluginNames, HaveASlashInThePath) {
   EXPECT_TRUE(is_plugin("pipe:cat"));
 }
 
-/// A description of a subject, without faults.
+/// A description of a subject, in which nearmiss finds no fault.
 nearmiss_subject sound() {
   nearmiss_subject subject{};
   subject.interface_version = NEARMISS_INTERFACE;

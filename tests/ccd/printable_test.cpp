@@ -16,8 +16,8 @@ TEST(Printable, ReplacesControlCharacters) {
   EXPECT_EQ(printable("a\nb\tc"), "a b c");
   EXPECT_EQ(printable("\x1b[31mred\x7f\r"), "?[31mred??");
   EXPECT_EQ(printable("a\u0085b"), "a??b");   // NEL, another line end
-  EXPECT_EQ(printable("a\u202eb"), "a???b");  // reverses the text after it
-  EXPECT_EQ(printable("a\u2028b"), "a???b");  // a line end in JavaScript
+  EXPECT_EQ(printable("a\u202eb"), "a???b");  // this character reverses the text after it
+  EXPECT_EQ(printable("a\u2028b"), "a???b");  // this character is a line end in JavaScript
   for (const char* unseen : {"\u200b", "\u2060", "\ufeff", "\u061c", "\u00ad", "\U000e0041", "\ufe0f",
                              "\ue000", "\uffff", "\u2800"})
     EXPECT_EQ(printable(unseen), std::string(std::string_view(unseen).size(), '?')) << unseen;

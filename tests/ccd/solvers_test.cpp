@@ -88,7 +88,7 @@ TEST(Cubic, EveryRootHasACandidateReachedWithinTheResidual) {
   const double mu = 64 * std::ldexp(1.0, -39);
   for (std::uint64_t i = 0; i < 5000; ++i) {
     Random random(2, 0, i);
-    // Makes clustered roots, so that F stays near 0 between them.
+    // Makes the roots of F lie close together, so that F stays near 0 between them.
     const double r0 = random.uniform();
     const double spread = std::pow(10.0, -8 * random.uniform());
     const double r1 = r0 + spread * (random.uniform() - 0.5);

@@ -36,7 +36,8 @@ TEST(Tolerances, AreThePapersForDouble) {
   EXPECT_EQ(tol.mu, 64 * e * e * e);
   EXPECT_EQ(tol.tau, 64 * e * e);
   EXPECT_EQ(tol.eta, 4 * e);
-  EXPECT_GE(tol.mu, 33492 * epsilon<double>());  // the condition for a failure-proof cubic solver
+  // This is the condition under which the cubic solver is failure-proof.
+  EXPECT_GE(tol.mu, 33492 * epsilon<double>());
 }
 
 TEST(VertexVertex, ReportsWhatIsWithinD) {

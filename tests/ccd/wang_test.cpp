@@ -76,7 +76,7 @@ TEST_P(EveryWang, DoesNotReportWhatStaysFarAway) {
   EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, 2, 1)).hit);
   EXPECT_FALSE(decide(falling_vertex(2, 2, 1, -1)).hit);
   EXPECT_FALSE(decide(falling_edge(2, 1)).hit);
-  // Taken literally, the paper's Algorithm 3 would test t = 0 for any F.
+  // Taken literally, the paper's Algorithm 3 would test the configuration at t = 0, whatever the cubic F is.
   EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, 5, 5)).hit);
 }
 
@@ -159,7 +159,7 @@ TEST(Wang, AGivenBoundWidensTheToleranceAndMustNotBeSmaller) {
 TEST(Wang, ClaimsADistanceOf41BTimesTheFourthRootOfEpsilon) {
   const Query query = falling_vertex(0.25, 0.25, 1, -1);
   const double B = pair_bound(query);
-  EXPECT_NEAR(B, 3, 1e-12);  // edges within 1, relative velocities within 2
+  EXPECT_NEAR(B, 3, 1e-12);  // the edges are within 1, and the relative velocities are within 2
   EXPECT_NEAR(make_subject("wang")->distance_bound(query), std::sqrt(1678.0) * B * std::ldexp(1.0, -13),
               1e-9);
 }

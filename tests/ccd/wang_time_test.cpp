@@ -25,7 +25,7 @@ void expect_just_before(const Query& query, double time) {
   EXPECT_GE(verdict.time, time - 1e-10);
 }
 
-/// The subjects whose times are lower bounds, and by how much their times may be early.
+/// The subjects whose times are lower bounds of t*, and by how much their times may be earlier than t*.
 constexpr std::pair<const char*, double> lower_bounds[]{{"advance", 1e-12}, {"wang-time", 1e-10}};
 
 TEST(LowerBounds, AreJustBeforeContact) {

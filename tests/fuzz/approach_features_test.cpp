@@ -30,8 +30,8 @@ Point position(const Query& query, int vertex, const Rational& t) {
   return x;
 }
 
-/// The simplest features that are at most the separation h apart at time t. The primitives must be at most h
-/// apart at t.
+/// The simplest features of the two primitives that are at most the separation h apart at time t. The
+/// primitives must be at most h apart at t.
 Closest closest_features(const Query& query, const Rational& t) {
   const Rational squared_h = Rational(query.separation) * Rational(query.separation);
   const Topology& of = topology(query.kind);

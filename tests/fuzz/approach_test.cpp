@@ -22,7 +22,7 @@ TEST(ClosestApproach, ResolvesEveryFamilyWithoutExactArithmetic) {
     for (const Query& query : first_queries(family, 200, seed)) {
       if (collides(query)) continue;
       ++apart;
-      // For a distance below 2^-300, the lower end of the enclosure may be 0.
+      // If the smallest distance is below 2^-300, the lower end of its enclosure may be 0.
       const Approach approach = closest_approach(
           VertexDifferences(query), [](double upper) { return upper < 0x1p-300 ? 0 : 0.999 * upper; });
       EXPECT_TRUE(approach.enough) << family;

@@ -27,7 +27,7 @@ namespace {
 
 using testing::answers_of;
 
-constexpr std::size_t batch = 100'000;  // the `batch` of most detectors in batches.c
+constexpr std::size_t batch = 100'000;  // the largest batch that most detectors in batches.c want
 
 /// A detector of batches.c. The time limit is so long that even on a busy machine, batches are not divided.
 std::unique_ptr<Subject> wanting(const std::string& detector, std::uint64_t bytes = std::uint64_t{1} << 30) {
@@ -109,8 +109,8 @@ TEST(Batches, HaveTheLimitOfOneQueryAndAThousandthForEachOther) {
   EXPECT_EQ(isolation::limit_of_batch(batch), 10);
 }
 
-// The call with the whole batch crashes, then a call with a part of it; but no query of this part crashes
-// when it is asked by itself.
+// The call with the whole batch crashes, and so does a later call with a part of the batch. But no query of
+// this part crashes when the query is asked by itself.
 TEST(Batches, ACrashThatDoesNotRepeatCounts) {
   const auto verdicts = answers_of(*wanting("wearing"), std::vector<Query>(20'000));
   const auto crashes =

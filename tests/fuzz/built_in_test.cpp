@@ -39,7 +39,7 @@ std::uint64_t fingerprint(const Scene& scene) {
   return hash.value();
 }
 
-// The hash is the same on every machine and with every compiler.
+// The scene's hash is the same on every machine and with every compiler.
 TEST_P(EveryScene, HasTheBitsThatItAlwaysHad) {
   const std::map<std::string, std::uint64_t> recorded{
       {"spikes", 0x8d7e972405206fac},   {"sheets", 0x4fd2649ab8e8d0bd}, {"points", 0x0b33ff0c26f7bae3},

@@ -33,7 +33,8 @@ CampaignPlan plan_of(std::uint64_t cases, int jobs, std::initializer_list<const 
   return plan;
 }
 
-/// A campaign of wang and, with `with_basic`, also of basic, which misses collisions and so has findings.
+/// A campaign whose subject is wang. With `with_basic`, the subject basic is also on trial; basic misses
+/// collisions, so the campaign has findings.
 Ran run(const CampaignPlan& plan, bool with_basic = false, const Stop& stop = Stop::never(),
         std::unique_ptr<Subject> another = nullptr) {
   Subjects subjects;

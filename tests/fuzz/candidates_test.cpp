@@ -27,7 +27,7 @@ std::vector<Candidate> found_candidates(const MovingMesh& mesh) {
   return found;
 }
 
-/// All pairs whose boxes meet, row by row: the list that the finder must give.
+/// All pairs whose boxes meet, in the order of their rows. The finder must give the same list.
 std::vector<Candidate> candidates_by_brute_force(const MovingMesh& mesh) {
   std::vector<Candidate> found;
   for (const Kind kind : kinds_of_meshes)
@@ -73,7 +73,7 @@ MovingMesh random_mesh(std::uint64_t seed, int points, int triangles) {
   return make_moving_mesh({start, faces, {}}, end);
 }
 
-// Many boxes only touch, or are exactly the separation apart.
+// Many boxes of this mesh only touch each other, or are exactly the separation apart.
 TEST(Candidates, FindsTheSameAsBruteForceWithIntegerCoordinates) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);

@@ -12,7 +12,8 @@ namespace {
 
 using ::testing::UnorderedElementsAreArray;
 
-/// Boxes of up to `size` cells in each direction, anywhere in a cube of 2000 cells.
+/// Boxes that extend over at most `size` cells in each direction, and lie anywhere in a cube of 2000 cells in
+/// each direction.
 std::vector<CellBox> random_boxes(std::uint64_t seed, std::size_t count, int size) {
   Random random(seed, 0, 0);
   std::vector<CellBox> boxes(count);

@@ -57,8 +57,9 @@ TEST(CertificateOfEveryFamily, ProvesTheDecision) {
   });
 }
 
-/// Expects a proof that a time is late. Without a separation: the primitives touch before this time. With a
-/// separation: they are closer than the separation before this time.
+/// Expects a proof that a time is late. For a query without a separation, the proof shows that the primitives
+/// touch before this time. For a query with a separation, it shows that the primitives are closer than the
+/// separation before this time.
 void expect_late(const Query& query, double time) {
   const auto text = certify_meets(query, {0, time, true}, query.separation > 0);
   ASSERT_TRUE(text);

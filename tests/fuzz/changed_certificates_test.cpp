@@ -28,8 +28,8 @@ namespace {
 using certificates::Statement;
 using nlohmann::json;
 
-/// Whether the oracle agrees with a statement about a span that begins at t = 0. Returns nothing for other
-/// statements.
+/// Whether the oracle agrees with a statement about a span that begins at t = 0. Returns nothing for a
+/// statement about any other span.
 std::optional<bool> is_true(const Statement& statement) {
   if (statement.from != 0 || statement.to != mpq_class(statement.to.get_d())) return std::nullopt;
   const Kind kind = parse_kind(statement.kind, "kind");

@@ -1,5 +1,5 @@
-// Queries on both sides of every border between classes, and the classes of every family's queries
-// (fuzz/families/README.md).
+// Tests the classification of queries on both sides of every border between two classes, and the classes of
+// every family's queries (fuzz/families/README.md).
 #include "fuzz/families/classify.hpp"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ TEST(Classify, AnEdgeIsExtremeIfItIsMoreThan1e8TimesLongerThanAnother) {
   EXPECT_TRUE(is_extreme(long_edge(-0x1p-20)));
   const Query point = make_query(Kind::edge_edge, {{0, 0, 1}, {0, 0, 1}, {-1, 0, 0}, {1, 0, 0}},
                                  {{0, 0, -1}, {0, 0, -1}, {-1, 0, 0}, {1, 0, 0}});
-  EXPECT_TRUE(is_degenerate(point));  // an edge of length 0 does not count
+  EXPECT_TRUE(is_degenerate(point));  // the ratio of the edges' lengths leaves out an edge of length 0
 }
 
 TEST(Classify, AMotionIsExtremeAbove1000TimesTheLongestEdge) {
@@ -125,7 +125,8 @@ TEST(Classify, ADistanceOfAlmostNothingIsDegenerate) {
   EXPECT_TRUE(is_ordinary(falling_vertex(0.25, 0.25, 1, above(1e-6))));
 }
 
-/// A vertex that passes an edge of a triangle. The smallest distance is 5, at t = 1/2.
+/// A vertex that passes an edge of a triangle. The smallest distance of the vertex from the edge is 5, at t =
+/// 1/2.
 Query passing_vertex(double separation) {
   const Vector a(0, 0, 0), b(100, 0, 0), c(0, 100, 0);
   const Query query = make_query(Kind::vertex_triangle, {{50, -7, -1}, a, b, c}, {{50, -1, 7}, a, b, c});

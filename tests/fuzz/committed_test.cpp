@@ -26,7 +26,7 @@ namespace {
 
 using testing::falling_vertex;
 
-const Query falling = falling_vertex(0.25, 0.25, 1, -1);  // contact at t = 0.5
+const Query falling = falling_vertex(0.25, 0.25, 1, -1);  // the vertex meets the triangle at t = 0.5
 
 TEST(CommittedStep, EndsWhereTheSolverPutsTheVertices) {
   const Query step = *committed_step(falling, 0.25, false);
@@ -63,7 +63,8 @@ TEST(CommittedStep, MayTouchOnTheWayOrAtItsEnd) {
 }
 
 /// A subject that reports every collision. The subject's time is the earliest time t*, rounded down to a
-/// double, minus `early`, but at least 0. If `in_float`, the time is then rounded down to a float.
+/// double, minus `early`; the time 0 replaces a negative time. If `in_float`, the time is then rounded down
+/// to a float.
 std::unique_ptr<Subject> sharp(bool in_float, double early, TimeSort sort) {
   const auto decide = [=](const Query& query) {
     Query rounded = query;

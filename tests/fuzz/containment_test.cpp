@@ -31,7 +31,8 @@
 namespace nearmiss {
 namespace {
 
-// A process may end while its files in /proc are read.
+// nearmiss reads the computing time of processes from /proc. A process may end while nearmiss reads the files
+// of this process there.
 TEST(ComputingTime, OfProcessesThatEndMeanwhileIsNotAnError) {
   std::atomic<bool> is_over = false;
   std::thread parent([&] {

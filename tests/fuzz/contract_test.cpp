@@ -1,4 +1,4 @@
-// Tests which queries a subject with a contract is asked.
+// Tests which queries a trial asks a subject with a contract, and which queries it leaves out.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -70,7 +70,8 @@ TEST(Corpus, EveryWangReportsEveryCollision) {
   }
 }
 
-// `nearmiss power` measures how soon a campaign finds a defect, so each defect must miss a collision.
+// `nearmiss power` measures how soon a campaign finds a defect, so the subject with a defect must miss a
+// collision, whatever the defect is.
 TEST(Corpus, EachDefectMissesItsOwnCase) {
   std::set<std::string> missed;
   read_cases(NEARMISS_CORPUS "/defects", [&](const Case& each) {

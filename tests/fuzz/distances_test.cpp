@@ -114,7 +114,7 @@ QuestionPlan usual(std::uint64_t cases) {
 
 QuestionResults<DistanceQuestion> measured(const std::string& name, const QuestionPlan& plan) {
   Subjects subjects;
-  subjects.push_back(make_subject(name));  // in this process, which is faster
+  subjects.push_back(make_subject(name));  // the subject runs in this process, because that is faster
   return QuestionTrial<DistanceQuestion>(subjects, plan, Stop::never()).run([](std::uint64_t) {});
 }
 
@@ -140,7 +140,7 @@ TEST(DistanceTrial, FindsEveryPlantedDefect) {
     ASSERT_FALSE(results.findings.empty()) << number;
     const QuestionFinding& first = results.findings.front();
     EXPECT_EQ(first.query, at_rest(first.query)) << number;
-    if (number == 1) {  // the simplest query has few numbers
+    if (number == 1) {  // most coordinates of the simplest query are 0
       const auto is_used = [](double c) { return c != 0; };
       EXPECT_LE(std::count_if(first.query.x.begin(), first.query.x.begin() + 12, is_used), 5);
     }
@@ -164,7 +164,7 @@ TEST(DistanceTrial, FindsEveryPlantedDefect) {
 TEST(DistanceTrial, AnAnswerThatChangesIsAFault) {
   QuestionPlan plan = usual(2000);
   plan.kinds = {Kind::vertex_vertex};
-  plan.jobs = 1;  // the answers depend on the number of earlier calls
+  plan.jobs = 1;  // the answers of this defect depend on the number of earlier calls
   const auto results = measured(with_defect(27), plan);
   ASSERT_FALSE(results.findings.empty());
   for (const QuestionFinding& each : results.findings) {
@@ -218,7 +218,8 @@ TEST(DistanceTrial, ASubjectThatGivesNoDistanceIsNotAsked) {
   const auto wang = make_subject("wang");
   EXPECT_FALSE(wang->gives_distance(Kind::edge_edge));
   EXPECT_EQ(wang->ask_distance(crossing).fault, Fault::not_asked);
-  EXPECT_TRUE(measured("wang", usual(100)).has_failed());  // the trial fails, because it asked nothing
+  // The trial fails, because it asked the subject no query.
+  EXPECT_TRUE(measured("wang", usual(100)).has_failed());
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ class Containment : public ::testing::TestWithParam<bool> {
   Containment() { setenv("NEARMISS_PROCESS", std::to_string(getpid()).c_str(), 1); }
 
   [[nodiscard]] static isolation::PluginLimits limits() { return {.own_namespace = GetParam()}; }
-  /// Whether the system refuses what the plug-in of this name tries.
+  /// Whether the operating system refuses the forbidden action that the plug-in of this name attempts.
   [[nodiscard]] static bool refuses(const std::string& name) {
     const auto subject = make_isolated_plugin(plugin(name), limits());
     const Verdict verdict = answers_of(*subject, queries())[chosen];
@@ -156,7 +156,8 @@ bool has_landlock() { return syscall(SYS_landlock_create_ruleset, nullptr, 0, 1)
 
 TEST_P(Containment, NoOtherProcessOfTheUserCanBeRead) {
   if (!GetParam() && !has_landlock()) GTEST_SKIP() << "found no Landlock";
-  const pid_t victim = fork();  // drops its privileges, to be like any other process of an ordinary user
+  // This process drops its privileges, so that it is like any other process of an ordinary user.
+  const pid_t victim = fork();
   if (victim == 0) {
     __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
     std::array<__user_cap_data_struct, _LINUX_CAPABILITY_U32S_3> none{};

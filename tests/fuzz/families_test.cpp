@@ -1,4 +1,4 @@
-// Families are pure functions, make finite numbers, and keep their promises.
+// Families are pure functions, make queries of finite numbers, and keep the promises of their descriptions.
 #include "fuzz/families/families.hpp"
 
 #include <gmock/gmock.h>
@@ -182,7 +182,8 @@ TEST(EveryFamily, HasCollisionsAndMisses) {
     const std::uint64_t count = count_of(family, 400);
     std::uint64_t collisions[2] = {0, 0};
     for (std::uint64_t i = 0; i < 2 * count; ++i) collisions[i % 2] += collides(make_query(family, 4, i));
-    // In uniform-slow, about 3 queries in 1000 collide; in the families at rest except rest-touching, none.
+    // In uniform-slow, about 3 queries in 1000 collide. In the families whose primitives are at rest, no
+    // query collides, except in rest-touching.
     const bool has_few =
         family.name == "uniform-slow" || (family.name.starts_with("rest") && family.name != "rest-touching");
     for (const std::uint64_t c : collisions) {

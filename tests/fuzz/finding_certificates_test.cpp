@@ -55,7 +55,7 @@ TEST(FindingCertificate, OfALateTimeIsThatTheyMeetBeforeIt) {
   EXPECT_EQ(check(certificate(What::late, contact, 0.75)),
             statement_about(contact, "meets", {0, std::nextafter(0.75, 0)}, false));
   EXPECT_EQ(certificate(What::late, contact, 0.5), "");
-  const Query near = with_separation(contact, 0.5);  // nearer than 0.5 from t = 1/4 on
+  const Query near = with_separation(contact, 0.5);  // the primitives are nearer than 0.5 from t = 1/4 on
   EXPECT_EQ(check(certificate(What::late, near, 0.375)),
             statement_about(near, "meets", {0, std::nextafter(0.375, 0)}, true));
   EXPECT_EQ(certificate(What::late, near, 0.25), "");

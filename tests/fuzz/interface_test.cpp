@@ -27,7 +27,8 @@ Query query_at(double x, Kind kind = Kind::edge_edge) {
   return query;
 }
 
-/// The detector as two subjects: one in this process, and one in a process of its own.
+/// The detector as two subjects: one subject runs in this process, and the other runs in a process of its
+/// own.
 std::vector<std::unique_ptr<Subject>> both(const std::string& subject) {
   std::vector<std::unique_ptr<Subject>> subjects;
   subjects.push_back(make_subject(several(subject)));

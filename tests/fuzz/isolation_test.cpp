@@ -114,7 +114,8 @@ void use_one_processor() {
   sched_setaffinity(0, sizeof allowed, &allowed);
 }
 
-/// Uses the processor for some milliseconds, so that afterwards the system prefers other processes.
+/// Uses the processor for some milliseconds, so that the operating system afterwards prefers other processes
+/// to this one.
 void compute_for_some_time() {
   const auto start = std::chrono::steady_clock::now();
   while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(5)) {
@@ -143,7 +144,8 @@ TEST(Isolation, TheComputingTimeOfAChildCounts) {
   const auto queries = one_batch(50);
   std::vector<Verdict> verdicts(queries.size());
   std::thread([&] {
-    use_one_processor();                       // so the child gets the processor
+    // The child, too, may then use only this processor, so this thread leaves the processor to the child.
+    use_one_processor();
     subject->decide_timed(queries, verdicts);  // starts the child
     for (int i = 0; i < 3; ++i)
       EXPECT_GE(subject->decide_timed(queries, verdicts).nanoseconds, 50 * 900'000U / 2);
@@ -222,7 +224,8 @@ TEST_P(Misbehaving, IsCountedAndAllElseIsAnswered) {
     const Verdict& verdict = verdicts[i];
     EXPECT_EQ(verdict.hit, verdict.fault == Fault::none) << i;
     if (!is_chosen(queries[i])) {
-      // On a busy machine, any query may exceed the time limit.
+      // On a busy machine, any query may exceed the time limit, even one for which the plug-in does nothing
+      // unusual.
       EXPECT_TRUE(verdict.fault == Fault::none || GetParam().fault == Fault::time) << i;
       continue;
     }

@@ -77,7 +77,8 @@ TEST(Judge, MeasuresByTheClaimedBoundOrByThatOfWang) {
   EXPECT_EQ(Judge(claims).ask_unit(stops_above).bound, 0.5);
   const auto always = make_isolated_plugin(plugin("always"));
   EXPECT_EQ(Judge(*always).ask_unit(stops_above).bound, make_subject("wang")->distance_bound(stops_above));
-  EXPECT_EQ(Judge(*always).failure(stops_above), std::nullopt);  // claims no bound, so none can be refuted
+  // The subject claims no bound, so no bound can be refuted.
+  EXPECT_EQ(Judge(*always).failure(stops_above), std::nullopt);
   Truth truth(stops_above);
   EXPECT_TRUE(Judge(*always).judge(always->decide(stops_above), truth).measured_by_wang);
   EXPECT_FALSE(Judge(claims).judge(claims.decide(stops_above), truth).measured_by_wang);
@@ -104,12 +105,13 @@ TEST(Judge, ATimeIsPromisedByASubjectThatGivesLowerBounds) {
     EXPECT_EQ(bound->late, time > 0.5) << time;
     EXPECT_EQ(bound->stuck, time == 0) << time;
     EXPECT_NEAR(bound->after - bound->early, time - 0.5, 1e-3) << time;
-    EXPECT_NEAR(bound->travelled, bound->early * 2 / 3, 1e-3) << time;  // falls by 2, and B is 1 + 2
+    // The vertex falls by 2, and B is 1 + 2.
+    EXPECT_NEAR(bound->travelled, bound->early * 2 / 3, 1e-3) << time;
   }
 }
 
 TEST(Judge, TheFirstDoubleAfterTheTimeOfContactIsAfterIt) {
-  const Query query = falling_vertex(0.25, 0.25, 1, -2);  // touches at t = 1/3
+  const Query query = falling_vertex(0.25, 0.25, 1, -2);  // the vertex touches the triangle at t = 1/3
   const auto error = error_of_time(TimeSort::estimate, std::nextafter(1.0 / 3, 1), query);
   EXPECT_GT(error->after, 0);
   EXPECT_EQ(error->early, 0);

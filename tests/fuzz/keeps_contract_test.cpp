@@ -55,7 +55,7 @@ TEST(Contract, OneRoot) {
   EXPECT_TRUE(keeps(two_factors(-1, -2, -1, -2)));           // at -1, twice
   EXPECT_FALSE(keeps(two_factors(1, -1, 0, 1)));             // at 1/2 and 0
   EXPECT_FALSE(keeps(two_factors(1, 0, 0, 1)));              // at both ends
-  EXPECT_FALSE(keeps(two_factors(1, -1, 1, -1 - 0x1p-52)));  // at 1/2, and just before
+  EXPECT_FALSE(keeps(two_factors(1, -1, 1, -1 - 0x1p-52)));  // at 1/2, and just before 1/2
 }
 
 TEST(Contract, OneRootIsDecidedAsByExactArithmetic) {

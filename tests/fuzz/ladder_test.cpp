@@ -61,7 +61,8 @@ TEST(DoubleDouble, EveryOperationIsWithinItsEpsilon) {
     sum = std::max(sum, error(a - b, exactly(a) - exactly(b)));
     product = std::max(product, error(a * b, exactly(a) * exactly(b)));
     quotient = std::max(quotient, error(a / b, exactly(a) / exactly(b)));
-    const DoubleDouble r = sqrt(abs(a));  // the relative error of the root is half that of its square
+    // The relative error of a root is half the relative error of the root's square.
+    const DoubleDouble r = sqrt(abs(a));
     root = std::max(root, error(r * r, abs(exactly(a))) / 2);
   }
   EXPECT_LE(sum, 3.0 / 16 + 1e-9);
@@ -82,7 +83,8 @@ TEST(MpfrFloat, AreThoseOfTheScope) {
   EXPECT_EQ(MpfrFloat(1) + 0x1p-25, MpfrFloat(1));
   EXPECT_EQ(ilogb(MpfrFloat(-5)), 2);
   EXPECT_EQ(static_cast<double>(abs(MpfrFloat(-0.1))), 0x1.9999ap-4);
-  EXPECT_EQ(static_cast<double>(MpfrFloat(1) / 3), 0x1.55556p-2);  // rounds to nearest, as all operations do
+  // The quotient is rounded to nearest, as are the results of all operations.
+  EXPECT_EQ(static_cast<double>(MpfrFloat(1) / 3), 0x1.55556p-2);
   EXPECT_EQ(static_cast<double>(MpfrFloat(1) - 0x1.8p-20), 1 - 0x1p-19);
   EXPECT_EQ(static_cast<double>(MpfrFloat(3) * 0x1.55556p-2), 1);
   EXPECT_EQ(static_cast<double>(sqrt(MpfrFloat(2))), 0x1.6a09ep0);

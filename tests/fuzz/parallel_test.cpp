@@ -1,4 +1,4 @@
-// Parallel work whose results come in order.
+// Parallel work whose results are delivered in the order of the pieces of work.
 #include "fuzz/parallel.hpp"
 
 #include <gtest/gtest.h>

@@ -155,7 +155,7 @@ TEST(Patience, NotAskingIsNoFailure) {
       },
       Stop::never());
   EXPECT_EQ(seen, 4 * most_slow);
-  EXPECT_EQ(others, 0);  // queries over the time limit are not shrunk
+  EXPECT_EQ(others, 0);  // queries on which the subject exceeds its time limit are not shrunk
 }
 
 TEST(Patience, OfASearchEndsToo) {

@@ -51,7 +51,7 @@ TEST(Plan, WithASeparationLosesNoApproach) {
 }
 
 TEST(Plan, PartsGiveTheSameAloneAndInAnyOrder) {
-  const MovingMesh mesh = grids(14);  // large enough for several parts of each kind
+  const MovingMesh mesh = grids(14);  // this mesh is so large that the plan has several parts of each kind
   const Plan plan(mesh, LeaveOut::all);
   ASSERT_GT(plan.parts(), 8);
   std::multiset<Candidate> together;

@@ -109,7 +109,7 @@ TEST_F(ProgramTest, GivesDistances) {
   EXPECT_FALSE(subject->gives_distance(Kind::edge_edge));
   Query query{.kind = Kind::vertex_edge};
   query.x[8] = 0.5;
-  query.x[20] = 7;  // at t = 1, which does not count
+  query.x[20] = 7;  // a coordinate at t = 1, which does not affect the distance at t = 0
   EXPECT_EQ(subject->ask_distance(query).distance, 0.5);
 }
 

@@ -1,4 +1,4 @@
-// The meshes in good files of all formats.
+// Tests which meshes are read from good files of all formats.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

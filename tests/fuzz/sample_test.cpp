@@ -1,4 +1,4 @@
-// Tests which queries trials sample.
+// Tests which of its queries a trial samples.
 #include "fuzz/trial/sample.hpp"
 
 #include <gtest/gtest.h>

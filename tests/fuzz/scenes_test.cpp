@@ -55,7 +55,9 @@ TEST_F(FolderTest, FramesAreInTheOrderOfTheirNumbers) {
   ASSERT_EQ(scene.frames, names.size());
   std::vector<double> heights;
   for (std::size_t i = 0; i < scene.frames; ++i) heights.push_back(scene.points(i)[0][2]);
-  EXPECT_THAT(heights, ElementsAre(0, 1, 3, 2, 4, 5, 6, 7, 8, 9, 10));  // 02 is 2, and 0 comes before 2
+  // The number 02 in a name counts as 2. Of two names with equal numbers, a1_02 comes before a1_2, because
+  // the character 0 comes before the character 2.
+  EXPECT_THAT(heights, ElementsAre(0, 1, 3, 2, 4, 5, 6, 7, 8, 9, 10));
   EXPECT_EQ(scene_of_folder(file("frames") / "").name, "frames");
   EXPECT_EQ(scene_of_folder(file("frames") / ".").name, "frames");
 }

@@ -70,15 +70,18 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
     EXPECT_FALSE(complexity(finding.query) < after);
     Finding again = finding;
     again.query = shrunk;
-    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;  // it is already the simplest
+    // The shrunk query is already the simplest.
+    EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;
     distinct.push_back(after.distinct);
     hash.add_all(shrunk.x);
   }
   EXPECT_EQ(hash.value(), 0x42897e50a3c443da)
-      << std::hex << hash.value();  // the shrunk queries are still the same
+      << std::hex << hash.value();  // the shrunk queries are the same as when this hash was recorded
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
-            4);  // most have few distinct numbers; unshrunk, all but coplanar queries have about 20
+            // Most shrunk queries have few distinct numbers; before shrinking, all queries except coplanar
+            // ones have about 20.
+            4);
 }
 
 TEST(Shrink, KeepsOnlyWhatMatters) {
@@ -86,7 +89,7 @@ TEST(Shrink, KeepsOnlyWhatMatters) {
   ASSERT_GT(query.x[3], 0.25);
   const Query shrunk = shrunk_while(query, [](const Query& q) { return q.x[3] > 0.25; });
   Query expected{.kind = query.kind};
-  expected.x[3] = expected.x[12 + 3] = 1;  // the vertex rests along this axis
+  expected.x[3] = expected.x[12 + 3] = 1;  // along this axis, the vertex does not move
   EXPECT_EQ(shrunk, expected);
 }
 
@@ -155,7 +158,8 @@ TEST(Shrink, AsksASlowSubjectAFewTimesOnly) {
   finding.signature = "vt";
   asked = 0;
   shrunk_query(finding, &late, Stop::never(),
-               {.time = 12 * takes});  // batches of 1, 2 and 4 small queries, and the finding itself
+               // The subject is asked batches of 1, 2 and 4 small queries, and the query of the finding.
+               {.time = 12 * takes});
   EXPECT_GE(asked, 1);
   EXPECT_LE(asked, 1 + 2 + 4 + 1);
 }
@@ -178,14 +182,16 @@ TEST(Shrink, AsksASlowSubjectTheSameAsAFastOneAndNotForEver) {
   EXPECT_EQ(shrunk_query(finding, &slow, Stop::never(), few), shrunk);
   EXPECT_EQ(slow_asked, fast_asked);
   EXPECT_NE(shrunk, finding.query);
-  EXPECT_NE(shrunk, shrunk_query(finding, basic.get()));  // the limit ended the search
+  // The limit ended the search before the search found the simplest query.
+  EXPECT_NE(shrunk, shrunk_query(finding, basic.get()));
   EXPECT_LE(fast_asked.size(), few.work);
   EXPECT_GE(fast_asked.size(), few.work / 2 / (1 + ShrinkLimits::of_call));
 }
 
 TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   const auto basic = make_subject("basic");
-  std::vector<std::pair<std::size_t, bool>> calls;  // for each call, its size, and whether it took too long
+  // For each call, the number of its queries, and whether the call took too long.
+  std::vector<std::pair<std::size_t, bool>> calls;
   const auto hang_at_zero = [&](std::span<const Query> queries, std::span<Verdict> verdicts) {
     bool is_slow = false;
     for (std::size_t i = 0; i < queries.size(); ++i)
@@ -202,7 +208,9 @@ TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   for (Finding finding : missed_by_basic()) {
     shrinker.shrink(finding);
     EXPECT_TRUE(finding.is_shrunk);
-    searches += 2 + kinds_of_meshes.size();  // for any class, for its own, and in the list of each kind
+    // One search in all classes, one search in the finding's own class, and one in the list of small queries
+    // of each kind.
+    searches += 2 + kinds_of_meshes.size();
   }
   const auto is_slow = [](const auto& call) { return call.second; };
   const auto first = std::find_if(calls.begin(), calls.end(), is_slow);

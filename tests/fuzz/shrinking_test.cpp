@@ -88,10 +88,11 @@ TEST(Shrinking, DoesNothingAfterARequestToStop) {
 }
 
 TEST(Shrinking, ALateFindingHasTheTimeOfItsShrunkQuery) {
-  const Subjects subjects = one(make_any_subject(NEARMISS_PLUGINS "/promises.so"));  // always says t = 1/2
+  // The subject always gives the time t = 1/2.
+  const Subjects subjects = one(make_any_subject(NEARMISS_PLUGINS "/promises.so"));
   const Query early = falling_vertex(0.3, 0.3, 0.1, -1);
   Finding finding{Finding::What::late, "always", "f", early, "f:1:0", 0.4, contact_signature(early), early};
-  finding.time = 0.25;  // a wrong time, which must be replaced
+  finding.time = 0.25;  // a wrong time, which the time for the shrunk query must replace
   const Finding shrunk = after_shrinking(subjects, {finding}).front();
   EXPECT_NE(shrunk.shrunk, early);
   EXPECT_EQ(shrunk.time, 0.5);
@@ -104,7 +105,7 @@ TEST(Shrinking, ARefutedFindingHasTheBoundOfItsShrunkQuery) {
   Finding finding =
       hold_trial(subjects, testing::batch_of("f", {falling_vertex(0.3, 0.3, 3, 1)})).findings.at(0);
   EXPECT_EQ(finding.bound, 0.5);
-  finding.bound = 0.25;  // a wrong bound, which must be replaced
+  finding.bound = 0.25;  // a wrong bound, which the bound for the shrunk query must replace
   const Finding shrunk = after_shrinking(subjects, {finding}).front();
   EXPECT_NE(shrunk.shrunk, finding.query);
   EXPECT_EQ(shrunk.bound, 0.5);

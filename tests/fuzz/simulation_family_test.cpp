@@ -51,8 +51,8 @@ TEST(SimulationFamily, AsksWhatASimulationAsks) {
   EXPECT_GT(drawn.size(), 1500);
 }
 
-/// Findings name queries by family, seed and index. The same family, seed and index must always give the same
-/// query.
+/// A finding names its query by the query's family, seed and index. The same family, seed and index must
+/// always give the same query.
 TEST(SimulationFamily, QueriesStayTheSame) {
   const auto fingerprint = [](const char* name) {
     const Family family = find_any_family(name);

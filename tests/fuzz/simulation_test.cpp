@@ -24,7 +24,7 @@ using ::testing::SizeIs;
 
 constexpr double step_time = 0.005;
 
-/// Two points with a spring between them. If `held` is true, the first point does not move.
+/// A cloth of two points with a spring between them. If `held` is true, the first point does not move.
 Cloth two_points(bool held, const Material& material) {
   const Mesh mesh{.points = {{0, 0, 0}, {0, 0, -1}}, .triangles = {}, .lines = {{0, 1}}};
   return Cloth(mesh, {held, false}, material, step_time);

@@ -56,7 +56,8 @@ TEST(SmallQueries, HaveFourSeparationsIfThereIsOne) {
     for (const SmallQuery& each : list) ++seen[each.query.separation];
     ASSERT_EQ(seen.size(), 4);
     for (const double h : {0.25, 0.5, 1.0, 2.0}) EXPECT_GT(seen[h], small_queries(kind).size() / 2) << h;
-    EXPECT_LT(list.size(), 4 * small_queries(kind).size());  // without queries with two right answers
+    // The list leaves out queries with two right answers.
+    EXPECT_LT(list.size(), 4 * small_queries(kind).size());
   }
 }
 
@@ -100,7 +101,8 @@ TEST(SmallQueries, AreLeftIfTooManyProcessesEnd) {
   });
   EXPECT_EQ(shrunk_query(missed(Kind::edge_edge), &crashing, Stop::never(), limits_in_campaign),
             missed(Kind::edge_edge).query);
-  EXPECT_EQ(asked, 1 + 2 + 4 + 8 + 16 + 32 + 1);  // batches with 63 faults, and the query itself
+  // Batches with 63 faulty answers in all, and then the query of the finding.
+  EXPECT_EQ(asked, 1 + 2 + 4 + 8 + 16 + 32 + 1);
 }
 
 TEST(SmallQueries, AreWhatASubjectThatMissesAKindOfContactIsShownWith) {

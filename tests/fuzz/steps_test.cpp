@@ -46,7 +46,7 @@ StepQuestion::Judged judged(const Query& query, double part, double clearance = 
   return StepQuestion::ask(PartSubject(part, clearance), query).value();
 }
 
-const Query falling = falling_vertex(0.25, 0.25, 1, -1);  // contact at t = 0.5
+const Query falling = falling_vertex(0.25, 0.25, 1, -1);  // the vertex meets the triangle at t = 0.5
 const Query free_falling = falling_vertex(0.25, 0.25, 1, 0.5);
 
 TEST(StepQuestion, AStepThatTouchesIsUnsafe) {
@@ -62,7 +62,7 @@ TEST(StepQuestion, AStepThatTouchesIsUnsafe) {
 }
 
 TEST(StepQuestion, AStepStaysAsFarAwayAsItClaims) {
-  EXPECT_FALSE(judged(falling, 0.25, 0.5).failure());  // the step ends 0.5 away
+  EXPECT_FALSE(judged(falling, 0.25, 0.5).failure());  // the step ends at a distance of 0.5 from the triangle
   const auto unsafe = judged(falling, 0.25, 0.625);
   EXPECT_EQ(unsafe.failure(), "unsafe");
   EXPECT_THAT(unsafe.text(), HasSubstr("nearer than the clearance 0.625 from t = 0.75"));
@@ -70,7 +70,8 @@ TEST(StepQuestion, AStepStaysAsFarAwayAsItClaims) {
 }
 
 TEST(StepQuestion, ThePartOfTheSafeMotionThatIsKeptIsMeasured) {
-  EXPECT_NEAR(judged(falling, 0.25).kept, 0.5, 1e-8);  // approximate, since the time of contact is rounded
+  // This number is approximate, since the time of contact is rounded.
+  EXPECT_NEAR(judged(falling, 0.25).kept, 0.5, 1e-8);
   EXPECT_EQ(judged(falling, 0).kept, 0);
   EXPECT_EQ(judged(falling, 0.75).kept, 1);
   EXPECT_EQ(judged(free_falling, 0.25).kept, 0.25);
@@ -119,7 +120,8 @@ TEST(StepTrial, FindsEveryPlantedDefect) {
   const auto right = measured(0, 2000);
   for (int number = 1; number <= defects; ++number) {
     const auto results = measured(number, 2000);
-    if (number == stops_what_moves_away) {  // this defect is safe, but costs time
+    // A step that is filtered with this defect is safe, but moves the primitives less.
+    if (number == stops_what_moves_away) {
       EXPECT_FALSE(results.has_failed());
       EXPECT_GT(kept(results), kept(right));
       continue;

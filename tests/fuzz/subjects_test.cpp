@@ -73,7 +73,8 @@ TEST(AllSubjects, RefuseCoordinatesThatAreNotFinite) {
   for (const std::string& name : names) {
     const auto subject = make_any_subject(name);
     for (const double c : {infinity, -infinity, std::nan("")})
-      for (const double end : {-1.0, 2.0})  // a collision, and a pair that planes keep apart
+      // A collision for end = -1, and a pair that a plane separates for end = 2.
+      for (const double end : {-1.0, 2.0})
         for (const std::size_t i : {0U, 5U, 13U, 23U}) {
           Query query = testing::falling_vertex(0.25, 0.25, 1, end);
           query.x[i] = c;

@@ -100,8 +100,8 @@ struct ToleranceProblem {
 
   static constexpr unsigned variables = 9;
 
-  /// Computes log(less / more) for each constraint more >= less. The result is positive if the constraint is
-  /// violated.
+  /// Computes log(less / more) for each constraint more >= less. This logarithm is positive if the constraint
+  /// is violated.
   void violations(const double* x, double* missing) const {
     const ToleranceConstants c{.mu = std::exp(x[8]),
                                .tau = std::exp(x[0]),

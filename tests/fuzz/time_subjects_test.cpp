@@ -31,7 +31,7 @@ std::vector<Counts> counts_of(const std::string& subject, const Family& family, 
     batch.provenance = [&](std::size_t i) { return family.name + ":3:" + std::to_string(indices[i]); };
     const TrialResult result = hold_trial(subjects, batch);
     for (const Finding& finding : result.findings)
-      if (finding.what != Finding::What::committed)  // a committed step is no failure
+      if (finding.what != Finding::What::committed)  // a finding about a committed step is no failure
         ADD_FAILURE() << subject << ": " << name(finding.what) << ", " << finding.provenance;
     found.push_back(result.statistics.counts.at({subject, kind, family.name}));
   }

@@ -61,7 +61,7 @@ TEST(Trial, CertifiesRecordedTruthsOnDemand) {
   EXPECT_EQ(certified(false), 0);
   recorded.truths = {std::nullopt, false};
   EXPECT_EQ(certified(true), 1);
-  recorded.truths = {false, false};  // the first one is wrong
+  recorded.truths = {false, false};  // the first of these truths is wrong
   EXPECT_EQ(certified(true), 1);
 }
 
@@ -139,9 +139,9 @@ TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
   EXPECT_EQ(counts_of(hold_trial(one(make_subject("wang")), many)).faults_total(), 0);
 }
 
-// A query's number, and so its place in a batch, does not depend on the seed. If samples were chosen by
-// number only, they would have the same places for every seed, and answers at other places would never be
-// checked.
+// A query's number, and so its place in a batch, does not depend on the seed. If a trial chose its samples by
+// the numbers of queries only, the samples would have the same places for every seed, and the answers at all
+// other places would never be checked.
 TEST(Trial, AnAnswerThatDependsOnThePlaceInABatchIsAFault) {
   const Family family = find_family("uniform-slow");
   for (const std::size_t wrong : {0, 12}) {

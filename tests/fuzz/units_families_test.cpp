@@ -13,7 +13,8 @@ using ::testing::ElementsAre;
 TEST(UnitsFamily, NamesTheFactorByWhichItsAnswersAreCounted) {
   EXPECT_THAT(factors_of(find_family("units@-9"), 1, 5), ElementsAre("edge=2^-9"));
   EXPECT_THAT(factors_of(find_family("v-distant@20~drawn"), 1, 5), ElementsAre("distance=2^20"));
-  // If the parameter has no fixed value, the factor has the value that is drawn for the query.
+  // If the family's parameter has no fixed value, the factor has the value of the parameter that is drawn for
+  // the query.
   const Family units = find_family("units");
   for (std::uint64_t i = 0; i < 50; ++i) {
     const std::string factor = factors_of(units, 1, i).at(0);
@@ -30,8 +31,9 @@ TEST(MetresFamily, HasTheFactorsThatItNames) {
     ASSERT_EQ(factors.size(), 3);
     const auto value = [&](std::size_t k) { return std::stod(factors[k].substr(factors[k].find('=') + 1)); };
     const double edge = value(0), motion = value(1) * edge, scene = value(2);
-    // The family draws two sides, whose components are at most `edge` at the start. Vertex-triangle: x2x3 is
-    // one of these sides, or their difference. Edge-edge: x2x3 is one of these sides.
+    // The family draws two sides, whose components are at most `edge` at the start. In a vertex-triangle
+    // query, x2x3 is one of these sides, or their difference. In an edge-edge query, x2x3 is one of these
+    // sides.
     const double side = (query.start(3) - query.start(2)).cwiseAbs().maxCoeff();
     ASSERT_LE(side, 2.001 * (edge + motion)) << i;
     for (int v = 0; v < 4; ++v) {

@@ -62,7 +62,7 @@ void expect_constraints(const Tolerances<double>& computed, double B, bool of_ed
   tol.psi = enclosure(computed.psi) / b / b;
   tol.lambda2 = enclosure(computed.lambda2) / b / b;
   tol.S = enclosure(computed.S) / b;
-  tol.mu = tol.tau = tol.eta = 1;  // the tested constraints do not depend on these
+  tol.mu = tol.tau = tol.eta = 1;  // the tested constraints do not depend on these three tolerances
   const auto errors = full_errors(Interval(epsilon<double>()), tol.S, tol.rho);
   for (const auto& each : constraints(tol, Interval(1), Interval(1), errors))
     if (each.about == "VV" || (of_edge && each.about.starts_with("VE"))) {
@@ -184,9 +184,9 @@ TEST(TolerancesOfVertices, ABatchMayHaveEveryKind) {
   }
 }
 
-/// For each of the five cases of the paper's Algorithm 2, whether this case accepts the vertex. Cases 1 to 4:
-/// the vertex is near the edge at a candidate time of the case. Case 5: the vertex is near an end of the
-/// edge.
+/// For each of the five cases of the paper's Algorithm 2, whether this case accepts the vertex. Cases 1 to 4
+/// accept the vertex if it is near the edge at a candidate time of the case. Case 5 accepts the vertex if it
+/// is near an end of the edge.
 std::array<bool, 5> cases_that_accept(const Query& query) {
   const WithinQuery<double> pair(query);
   const Tolerances<double> tol = pair.tolerances(query.kind, PaperTolerances());

@@ -28,7 +28,8 @@ TEST(WithSeparation, DrawnIsFromAMillionthOfTheExtentToAllOfItAndOftenAPowerOfTw
   for (std::uint64_t i = 0; i < 400; ++i) {
     const Query query = make_query(find_family("stiff~drawn"), 5, i);
     const double ratio = query.separation / extent(query);
-    EXPECT_LE(0.5e-6, ratio);  // half of 1e-6, because some separations are rounded down to a power of two
+    // The limit is half of 1e-6, because some separations are rounded down to a power of two.
+    EXPECT_LE(0.5e-6, ratio);
     EXPECT_LE(ratio, 1);
     powers_of_two += std::ldexp(1, std::ilogb(query.separation)) == query.separation ? 1 : 0;
   }

@@ -66,7 +66,7 @@ int main(int count_of_arguments, char** arguments) {
   if (count_of_arguments != 3) return 2;
   const std::size_t count = std::strtoull(arguments[1], nullptr, 10);
   const std::uint64_t seed = std::strtoull(arguments[2], nullptr, 10);
-  constexpr std::size_t most = 200;  // largest number of queries in a block
+  constexpr std::size_t most = 200;  // the largest number of queries in a block
   std::vector<Query> of_kind[2];
   std::size_t blocks = 0;
   const auto write_kind = [&](std::vector<Query>& queries) {

@@ -71,7 +71,8 @@ int main() {
   expect(ccd.point_triangle_ccd(raw, fa, b, fc, below, a, fb, c, toi) && toi == 0.5,
          "points of several types");
 
-  // If there is no answer, the functions report a collision, so that a simulation does not advance.
+  // If the oracle gives no answer, the functions report a collision, so that a simulation does not advance
+  // past a possible contact.
   const Point nowhere{std::numeric_limits<double>::quiet_NaN(), 0, 0};
   expect(ccd.point_triangle_ccd(nowhere, a, b, c, below, a, b, c, toi) && toi == 0, "not a number");
   expect(ccd.point_triangle_ccd(above, a, b, c, above, a, b, c, toi, -1) && toi == 0, "a negative distance");

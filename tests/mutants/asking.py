@@ -1,4 +1,4 @@
-"""Runs the tests with a mutant, quick tests first, until one fails."""
+"""Runs the tests with a mutant, quick tests first, until a test fails."""
 
 import re
 from dataclasses import dataclass
@@ -23,8 +23,8 @@ def in_order(steps):
 
 
 def batches(steps):
-    """Divides steps, quick ones first, into batches, each of which takes about as long as all batches
-    before it together. Yields a list of steps for each executable in each batch."""
+    """Divides steps, quick steps first, into batches. Each batch takes about as long as all
+    earlier batches together. Yields, for each batch, a list of its steps for each executable."""
     batch, size, limit = {}, 0, 0.5
     for step in in_order(steps):
         if batch and size + step.cpu > limit:
@@ -46,8 +46,9 @@ def culprit(group, ended):
 
 
 def run_steps(group, layer):
-    """Runs steps of one executable, with a limit far above their times without a mutant. The limit is one
-    of wall time, because a limit of CPU time changes how the kernel measures CPU time."""
+    """Runs steps of one executable, with a limit far above the times that the steps take without a
+    mutant. This is a limit of wall time, because a limit of CPU time changes how the kernel
+    measures CPU time."""
     return run_tests(
         group[0].group,
         [step.test for step in group],

@@ -115,7 +115,7 @@ class Layer:
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def is_possible(self):
-        """Whether this system mounts layers."""
+        """Whether this system can mount layers."""
         self.begin()
         possible = run(['true'], COPY, before=self.words()).code == 0
         self.end()

@@ -71,7 +71,7 @@ def changed(line):
 
 
 def mutants_of(file, text):
-    """The mutants of a file, each once, in the order of its lines."""
+    """The mutants of a file, each once, in the order of the file's lines."""
     found, count = [], Counter()
     for number, line in enumerate(text.split('\n'), 1):
         operators = {}  # for each changed line, the first operator that makes it

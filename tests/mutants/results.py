@@ -1,4 +1,4 @@
-"""The results of mutants, saved after each mutant."""
+"""The results of mutants, which are saved after each mutant."""
 
 import json
 import os

@@ -103,7 +103,7 @@ def state():
 
 
 def baseline(steps, jobs, say):
-    """Returns the steps with their times. Measures only times that no earlier call has saved for
+    """Returns the steps with their times. Measures only those times that no earlier call has saved for
     this build. Prints which steps fail or take too long without a mutant."""
     built = state()
     kept = json.loads(BASELINE.read_text()) if BASELINE.exists() else {}

@@ -24,7 +24,7 @@ using ::testing::HasSubstr;
 const Query hit = falling_vertex(0.25, 0.25, 1, -1);
 const Query miss = falling_vertex(0.25, 0.25, 2, 1);
 
-/// A method that always gives this answer.
+/// A method that gives this answer to every query.
 Method saying(std::string_view name, Claim claim, const Answer& answer) {
   return {name, "", claim, [answer](const Query&) { return answer; }};
 }
@@ -87,10 +87,10 @@ TEST(Agreement, TheFilterContradictsATie) {
             "at most h (no: filter; yes: first)");
 }
 
-// The decision claims a tie, but the smallest distance is not exactly h. No method is asked, so none
-// contradicts the decision.
+// The decision claims a tie, but the smallest distance is not exactly h. The test asks no method, so no
+// method contradicts the decision.
 TEST(Agreement, AWrongDecisionIsNotProved) {
-  const Query far = with_separation(miss, 0.5);  // miss has the distance 1
+  const Query far = with_separation(miss, 0.5);  // the smallest distance of `miss` is 1
   const Query near = with_separation(miss, 2);
   const std::vector<Method> none;
   const auto without_methods = [&](const Query& query, const Decision& decision) {
@@ -115,7 +115,7 @@ TEST(Agreement, ATieAtTheLargestDoubleNeedsNoProofAboveIt) {
 TEST(Agreement, ATieIsProvedUpToTheDoublesNextToIt) {
   const auto is_tie_at = [](double h) {
     return is_proved(with_separation(miss, h),
-                     {.collision = false, .is_tie = true});  // miss has the distance 1
+                     {.collision = false, .is_tie = true});  // the smallest distance of `miss` is 1
   };
   EXPECT_TRUE(is_tie_at(1));
   EXPECT_FALSE(is_tie_at(1 - 0x1p-52));
@@ -133,7 +133,7 @@ TEST(Agreement, AnEvenNumberOfRootsIsMissedByParityAlone) {
   EXPECT_TRUE(missed(true, even));
   EXPECT_FALSE(missed(true, {.collision = true, .on_boundary = false, .odd = true}));
   EXPECT_FALSE(missed(false, even));
-  EXPECT_FALSE(missed(true, {}));  // parity says nothing about this query
+  EXPECT_FALSE(missed(true, {}));  // the method `parity` gives no answer about this query
 }
 
 TEST(Agreement, OneMoreMethodThatLiesOnceIsCaught) {
@@ -177,7 +177,8 @@ TEST(Methods, ACertificateProvesAnswersAndTies) {
   EXPECT_EQ(proved_answer(hit).collision, true);
   EXPECT_EQ(proved_answer(hit).at_most, std::nullopt);
   EXPECT_EQ(proved_answer(miss).collision, false);
-  const auto expect = [](double h, std::optional<bool> collision, bool at_most) {  // miss has the distance 1
+  const auto expect = [](double h, std::optional<bool> collision,
+                         bool at_most) {  // the smallest distance of `miss` is 1
     const Answer answer = proved_answer(with_separation(miss, h));
     EXPECT_EQ(answer.collision, collision) << h;
     EXPECT_EQ(answer.at_most, at_most) << h;

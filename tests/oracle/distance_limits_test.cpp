@@ -41,8 +41,8 @@ TEST(ClosestRatio, OfASubnormalUnitIsTheSameWhereTheCallerTakesSubnormalsForZero
 Query nearly_overflowing() { return falling_vertex(0.25, 0.25, 0x1.8p1023, 0x1.2p1023); }
 
 TEST(DistanceInUnits, IsFiniteWhereTheRatioIs) {
-  // The lambda requires an enclosure with lo = hi, and the search finds none. So exact comparisons enclose
-  // the ratio as narrowly as doubles allow.
+  // The lambda requires an enclosure with lo = hi, and the search finds no such enclosure. So exact
+  // comparisons enclose the ratio as narrowly as doubles allow.
   const Enclosure ratio = distance_in_units(nearly_overflowing(), 0x1.1p1023, [](double hi) { return hi; });
   EXPECT_LE(ratio.lo, 0x1.2p0 / 0x1.1p0);
   EXPECT_GE(ratio.hi, 0x1.2p0 / 0x1.1p0);
@@ -57,7 +57,7 @@ TEST(DistanceInUnits, IsRoundedOutward) {
   EXPECT_LT(third.lo, 1.0 / 3);
   EXPECT_GT(third.hi, 1.0 / 3);
   const Enclosure tenth = distance_in_units(query, 10, [](double hi) { return hi; });
-  EXPECT_LT(tenth.lo, 0.1);  // the nearest double is above 1/10
+  EXPECT_LT(tenth.lo, 0.1);  // the double nearest to 1/10 is above 1/10
   EXPECT_GE(tenth.hi, 0.1);
   EXPECT_LE(tenth.hi, 0.1 * (1 + 0x1p-48));
 }

@@ -23,8 +23,8 @@ void expect_encloses(const Query& query, double distance) {
   EXPECT_LE(d.lo, distance);
   EXPECT_GE(d.hi, distance);
   EXPECT_LE(d.hi - d.lo, 1e-3 * d.hi);
-  EXPECT_FALSE(distance_exceeds(query, distance));  // an exact comparison, because the numbers in these tests
-                                                    // are exact
+  // This comparison may be exact, because the distances in these tests are exact doubles.
+  EXPECT_FALSE(distance_exceeds(query, distance));
   EXPECT_TRUE(distance_exceeds(query, std::nextafter(distance, 0)));
 }
 

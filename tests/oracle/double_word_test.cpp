@@ -1,5 +1,5 @@
-// Exact arithmetic confirms the error bounds of double words and of products. tests/proofs/ proves all other
-// bounds.
+// Compares the error bounds of double words and of products with exact arithmetic. tests/proofs/ proves all
+// other error bounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -67,7 +67,7 @@ TEST(Exact, TwoRootsOrADoubleRootAreACollision) {
 TEST(Exact, PlanarMotionHitsAndMisses) {
   EXPECT_TRUE(collides(vertex_against_unit_triangle({-1, 0.25, 0}, {2, 0.25, 0})));
   EXPECT_FALSE(collides(vertex_against_unit_triangle({-1, -0.25, 0}, {2, -0.25, 0})));
-  // Only a corner is touched, at an interior time.
+  // The vertex touches only a corner of the triangle, at a time between t = 0 and t = 1.
   EXPECT_TRUE(collides(vertex_against_unit_triangle({-1, 1, 0}, {1, 1, 0})));
   EXPECT_FALSE(
       collides(vertex_against_unit_triangle({-1, std::nextafter(1, 2), 0}, {1, std::nextafter(1, 2), 0})));

@@ -60,7 +60,7 @@ TEST(Features, KnowADoubleRoot) {
   const Query touching =
       make_query(Kind::vertex_triangle, {{0.25, 0, -1}, o, a, {0, 1, 0}}, {{0.25, 1, 3}, o, a, {0, 1, 4}});
   EXPECT_EQ(features_of(touching), "multiple-root inside in-face");
-  Query through = touching;  // slightly higher, so that F has two simple roots
+  Query through = touching;  // here, the vertex starts slightly higher, so that F has two simple roots
   through.x[2] += 0x1p-20;
   EXPECT_EQ(features_of(through), "simple-root inside in-face");
 }
@@ -108,7 +108,7 @@ TEST(Features, FitTheRoots) {
     EXPECT_EQ(features->multiplicity == Multiplicity::planar, count.planar);
     EXPECT_EQ(features->time == ContactFeatures::Time::start, earliest_time(query)->rational() == "0");
     EXPECT_EQ(features->time == ContactFeatures::Time::end, earliest_time(query)->rational() == "1");
-    if (count.distinct != 1) continue;  // with one root, the first contact is the only one
+    if (count.distinct != 1) continue;  // if F has one root, the first contact is the only contact
     EXPECT_EQ(features->multiplicity == Multiplicity::multiple, count.with_multiplicity > 1);
     const bool within = features->location == ContactFeatures::Location::interior && !features->degenerate &&
                         features->time == ContactFeatures::Time::inside;

@@ -127,7 +127,7 @@ Query thin_edges(double size) {
                     {{0, 0.5, 1.5 * size}, {size / 8, 0x1.8p-6, 0}, {0, 0, size / 32}, {1.5 * size, 0.5, 0}});
 }
 
-/// Those of the queries above in which sums of products overflow.
+/// The queries above in which sums of products overflow.
 std::vector<Named> overflowing() {
   return {{"crossing edges", scaled(crossing_edges(), 0x1p340)},
           {"two far points", two_far_points(0x1p511)},
@@ -165,7 +165,7 @@ TEST(FilterRange, DecidesWhereNothingIsNearOverflow) {
     }
 }
 
-// F's products are about 2^(3 exponent), and F's error is at least 2^-1060.
+// The products of which F is the sum are about 2^(3 exponent), and the error bound of F is at least 2^-1060.
 TEST(FilterRange, LeavesWhereFUnderflows) {
   for (const auto& [name, query] : plain_collisions())
     for (const int exponent : {-358, -360, -500, -537, -1000, -1060, -1074})

@@ -1,5 +1,5 @@
-// The filter never gives a wrong answer, decides the queries that it should, and gives the same answers for
-// one query and for many.
+// The filter never gives a wrong answer, and decides the queries that it should. It gives a query the same
+// answer by itself and among many queries.
 #include "oracle/filter/filter.hpp"
 
 #include <gmock/gmock.h>
@@ -70,7 +70,7 @@ TEST(Filter, DecidesWhatTouchesAtADouble) {
   const Vector3<double> o(0, 0, 0), a(1, 0, 0);
   touches(testing::make_query(Kind::vertex_triangle, {{0.25, 0.5, -0.25}, o, a, {0, 1, -1}},
                               {{0.25, 0, 0.25}, o, a, {0, 1, 1}}),
-          {0, 1});  // 0.5 is a double root
+          {0, 1});  // t = 0.5 is a double root of F
 }
 
 TEST(Filter, DecidesWhatCrossesAnEdgeInAPlaneAcrossAnAxis) {
@@ -187,7 +187,8 @@ TEST(Filter, LeavesWhatIsNotFinite) {
   for (const double c : {HUGE_VAL, -HUGE_VAL, std::nan("")}) {
     std::vector<Query> queries;
     for (std::size_t i = 0; i < 24; ++i) {
-      Query query = testing::falling_vertex(2, 2, 1, 1);  // apart, before coordinate i is replaced
+      // The primitives are apart until coordinate i is replaced.
+      Query query = testing::falling_vertex(2, 2, 1, 1);
       query.x[i] = c;
       queries.push_back(query);
       EXPECT_EQ(filter(query), FilterStage::undecided);

@@ -156,7 +156,7 @@ Query small_integer_query(Random& random, Kind kind) {
   return query;
 }
 
-// These queries include many ties and degenerate primitives.
+// Many of these queries are ties, or have degenerate primitives.
 TEST(Separation, SmallIntegersAreDecidedAlikeByAllMethods) {
   int ties = 0;
   for (std::size_t i = 0; i < 600; ++i) {
@@ -199,7 +199,8 @@ TEST(Separation, OfAnySizeIsDecidedAlikeByAllMethods) {
   for (std::size_t i = 0; i < 40; ++i) {
     Random random(34, 0, i);
     Query query = testing::uniform_query(random, testing::kind_of_case(i));
-    const int largest = i < 6 ? 1020 : 200;  // exact arithmetic with integers of 2,000 bits takes long
+    // These queries need exact arithmetic with integers of 2,000 bits, which takes long.
+    const int largest = i < 6 ? 1020 : 200;
     const int size = random.integer(-largest, largest);
     for (double& c : query.x) c = std::ldexp(c, size);
     query.separation =

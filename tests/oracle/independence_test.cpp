@@ -47,7 +47,7 @@ std::map<std::string, std::set<std::string>> borrowed(const std::string& folder)
   return by_file;
 }
 
-/// The checker of certificates, which the comparison of the oracle's methods uses.
+/// The folder of the checker of certificates. The comparison of the oracle's methods uses this checker.
 constexpr const char* checker = "tools/certificates";
 
 /// The folder of the library that offers the oracle and wang to other programs. No other part of the oracle

@@ -25,7 +25,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<double, 24> falling{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1, 0,
                                          0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-#ifndef _GLIBCXX_ASSERTIONS  // defined by the preset of the sanitizers, which need a larger stack
+#ifndef _GLIBCXX_ASSERTIONS  // the preset of the sanitizers, which need a larger stack, defines this macro
 /// This query needs the deepest stack of all queries that were tried.
 TEST(Interface, WorksOnASmallStack) {
   static constexpr std::array deepest{-0x1p+0,

@@ -31,7 +31,8 @@ constexpr std::array<double, 24> falling{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1,
                                          0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 TEST(Interface, SaysWhichQueriesAreNotFinite) {
-  for (const std::size_t count : {1U, 3U, 7U, 300U})  // one query, a few queries, and several blocks
+  // Counts of one query, of a few queries, and of several blocks of queries.
+  for (const std::size_t count : {1U, 3U, 7U, 300U})
     for (const auto& [odd, place, is_far] :
          std::vector<std::tuple<double, std::size_t, bool>>{{infinity, 23, false},
                                                             {-infinity, 0, false},
@@ -40,7 +41,7 @@ TEST(Interface, SaysWhichQueriesAreNotFinite) {
                                                             {infinity, 21, true}}) {
       std::vector<double> x;
       for (std::size_t q = 0; q < count; ++q) x.insert(x.end(), falling.begin(), falling.end());
-      if (is_far) x[24 * (count - 1) + 14] = 9;  // the boxes do not meet
+      if (is_far) x[24 * (count - 1) + 14] = 9;  // the primitives' boxes do not meet
       x[24 * (count - 1) + place] = odd;
       const Queries queries = Queries::packed(Kind::vertex_triangle, x);
       std::vector<std::int8_t> answers(count), expected(count, NEARMISS_COLLISION);
@@ -77,7 +78,7 @@ TEST(Interface, RefusesSeparationsThatAreNone) {
 
 TEST(Interface, EachQueryMayHaveItsOwnSeparation) {
   std::vector<double> x(falling.begin(), falling.end());
-  x[14] = 0.5;  // stops at a distance of 1/2
+  x[14] = 0.5;  // the vertex stops at a distance of 1/2
   x.insert(x.end(), x.begin(), x.end());
   x.insert(x.end(), x.begin(), x.end());
   const std::array h{0.0, 0.25, 0.5, 0.75};
@@ -135,8 +136,8 @@ TEST(Interface, SeparationsOfZeroAskForContact) {
   constexpr std::size_t count = 300;  // more than a block
   std::vector<double> x;
   for (std::size_t q = 0; q < count; ++q) x.insert(x.end(), falling.begin(), falling.end());
-  x[14] = 0.5;                     // the first one stops at a distance of 1/2
-  x[24 * (count - 1) + 14] = 0.5;  // and so does the last one
+  x[14] = 0.5;                     // the vertex of the first query stops at a distance of 1/2
+  x[24 * (count - 1) + 14] = 0.5;  // and the vertex of the last query does so, too
   std::vector<double> h(count);
   const Queries queries = Queries::packed(Kind::vertex_triangle, x).with_separations(h);
   std::vector<std::int8_t> expected(count, 1);
@@ -205,7 +206,7 @@ TEST(Interface, RefusesALayoutThatIsMissing) {
 
 TEST(Interface, EarliestTimesLieBetweenTheirSpans) {
   std::array<double, 24> x = falling;
-  x[14] = -2;  // it falls through the triangle at t = 1/3
+  x[14] = -2;  // the vertex falls through the triangle at t = 1/3
   std::array<double, 1> lo{}, hi{};
   EXPECT_EQ(earliest_times(Queries::packed(Kind::vertex_triangle, x), lo, hi), Status::ok);
   EXPECT_EQ(lo[0], 1. / 3);  // rounded down

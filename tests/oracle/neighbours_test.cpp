@@ -114,7 +114,8 @@ std::vector<Query> contacts(std::uint64_t seed, std::size_t count) {
   return queries;
 }
 
-/// Compares the known ones of `times` with the exact times. Returns the number of comparisons.
+/// Compares those of `times` that the filter knows with the exact times. Returns the number of these
+/// comparisons.
 std::size_t check(const std::vector<Query>& queries, const std::vector<KnownTime>& times) {
   std::size_t known = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {

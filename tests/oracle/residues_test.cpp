@@ -40,7 +40,7 @@ TEST(Residues, NeverShowItIfThereIsACommonFactor) {
 
 TEST(Residues, ShowNothingIfThePrimeDividesALeadingCoefficient) {
   const Number prime(2147483647.0);
-  const Polynomial factor({Number(1), prime});  // its residue is the constant 1
+  const Polynomial factor({Number(1), prime});  // the residue of this polynomial is the constant 1
   EXPECT_FALSE(are_coprime_by_residues(factor, factor * factor));
   EXPECT_FALSE(only_double_factor(factor * factor));
 }

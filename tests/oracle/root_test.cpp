@@ -96,7 +96,8 @@ TEST(Root, PartsCloseRoots) {
 TEST(Root, PartsClustersOfRoots) {
   for (const unsigned exponent : {40, 400, 1000, 5000}) {
     const Number gap = power_of_half(exponent);
-    const auto times_3 = [](const Number& a) { return Polynomial({-a, Number(3)}); };  // its root is a / 3
+    // The root of this polynomial is a / 3.
+    const auto times_3 = [](const Number& a) { return Polynomial({-a, Number(3)}); };
     const Polynomial inside = times_3(1) * times_3(Number(1) + gap) * times_3(Number(1) - Number(3) * gap);
     EXPECT_EQ(roots_in_step(inside * times_3(2)).size(), 4) << exponent;
     // Two of these roots are outside the step.
@@ -156,7 +157,8 @@ TEST(OnInterval, PartsHaveTheSignsOfThePolynomialUnlessRoundingMayHaveChangedThe
     Number hi = 1;
     OnInterval on(p, lo, hi);
     for (int step = 0; step < 6; ++step) {
-      // [from, to] is a part of the interval in which the sign changes. Its ends have many bits.
+      // [from, to] is a part of the interval in which the sign changes. The numbers `from` and `to` have many
+      // bits.
       Number from = 0;
       Number to = 1;
       for (int k = 0; k < 16; ++k) {

@@ -38,7 +38,7 @@ TEST(ContactSearch, NeedsACertainSignOnBothSidesOfARoot) {
   EXPECT_NE(search(three_roots()), FilterStage::sign_change);
 }
 
-// F is the polynomial of the test above, with a small error.
+// F is the polynomial of the test above, but here the bound of its error is small.
 TEST(ContactSearch, FindsAChangeOfSignWhereTheWeightsAgree) {
   Bernstein<double, 4> F = three_roots();
   F.error = 0x1p-30;

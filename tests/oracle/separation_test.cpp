@@ -169,7 +169,8 @@ TYPED_TEST(SeparationErrors, NormalsProductsAreWithinTheirErrors) {
                                 Rational(dot(cross(v, w), u))};
       if ((F[0] < 0) != (separation.products[0].coefficients[0] < 0) &&
           abs(F[0]) > Rational(separation.products[0].errors[0]))
-        for (Rational& c : F) c = -c;  // the distance has the other sign
+        // The computed distance has the opposite sign, because the normal has the opposite direction.
+        for (Rational& c : F) c = -c;
       if (abs(F[0]) > Rational(separation.products[0].errors[0])) expect_within(separation.products[0], F);
       EXPECT_GE(Rational(separation.length[0]) * Rational(separation.length[0]),
                 dot(cross(q, r), cross(q, r)));
@@ -237,7 +238,7 @@ TYPED_TEST(SeparationErrors, UpperBoundsAreAboveTheDistance) {
 /// of the coefficient. The value of a coefficient is n here, because it counts roundings. sizes[i] bounds the
 /// sum of the magnitudes of the products in the coefficient.
 void expect_room(const Product& product, const std::array<double, 4>& sizes) {
-  constexpr double second_orders = 1.02;  // also covers the roundings of the error itself
+  constexpr double second_orders = 1.02;  // this factor also covers the roundings of the computed error bound
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_GE(product.errors[i], second_orders * product.coefficients[i] * sizes[i]) << i;
 }

@@ -91,7 +91,8 @@ TEST(Translation, WhatOverflowsOrIsNoDoubleIsLeftToOthers) {
   const Query inexact = make_query(Kind::vertex_triangle, {{0.25, 0.25, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                    {{0.25, 0.25, 1e-20}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}});
   EXPECT_EQ(relative_motion(inexact), RelativeMotion::translation);
-  EXPECT_FALSE(meets_by_translation(inexact).has_value());  // 1e-20 - 1 is not a double
+  // The velocity of the vertex, 1e-20 - 1, is not a double.
+  EXPECT_FALSE(meets_by_translation(inexact).has_value());
 }
 
 }  // namespace

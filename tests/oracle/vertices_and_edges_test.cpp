@@ -27,9 +27,9 @@ using testing::make_query;
 constexpr std::array of_vertices_and_edges{Kind::vertex_vertex, Kind::vertex_edge};
 
 /// A query of one of three sorts. In half of all queries, the coordinates are small integers, so that
-/// primitives often touch; in half of these queries, one coordinate is then moved by 2^-50. In a quarter of
-/// all queries, the coordinates are doubles in [-1, 1]. In the last quarter, they are doubles of very
-/// different sizes, some of them subnormal.
+/// primitives often touch. In half of these queries with small integers, one coordinate is then changed by
+/// 2^-50. In a quarter of all queries, the coordinates are doubles in [-1, 1]. In the last quarter, they are
+/// doubles of very different sizes, some of them subnormal.
 Query random_query(Random& random, Kind kind) {
   const int sort = random.integer(0, 3);
   Query query{.kind = kind};

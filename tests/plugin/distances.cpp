@@ -36,7 +36,8 @@ class Distances {
     const V d = a - b;
     while (is(26)) std::this_thread::sleep_for(std::chrono::seconds(1));  // never answers
     static std::atomic<int> calls = 0;
-    if (is(27)) return norm(d) * (1 + calls++ % 7);                   // another answer at each call
+    // Each call for the same primitives gives another distance.
+    if (is(27)) return norm(d) * (1 + calls++ % 7);
     if (is(1)) return std::abs(d.x) + std::abs(d.y) + std::abs(d.z);  // another norm
     if (is(2)) return dot(d, d);                                      // no square root
     if (is(3)) return 1.02 * norm(d);                                 // rounded up
@@ -49,7 +50,8 @@ class Distances {
     const double squared = dot(edge, edge);
     const double shortest = is(5) ? 1e-6 : 0;  // treats short edges as points
     if (!(squared > shortest) && !is(6)) return vv(p, a);
-    const double t = dot(p - a, edge) / squared;                   // 0 / 0 with defect 6
+    // With defect 6, this quotient is 0 / 0 for an edge of length 0.
+    const double t = dot(p - a, edge) / squared;
     if (is(7)) return vv(p, t < 0.5 ? a : b);                      // considers only the ends
     if (is(8)) return vv(p, a + std::clamp(t, 0.0, 0.99) * edge);  // stops before the end
     if (is(9) && t > 1) return vv(p, a);                           // takes the wrong end
@@ -58,8 +60,10 @@ class Distances {
 
   double vt(V p, V a, V b, V c) const {
     double best =
-        std::min({ve(p, a, b), ve(p, b, c), is(10) ? HUGE_VAL : ve(p, c, a)});  // an edge is left out
-    if (is(11)) best = std::min({vv(p, a), vv(p, b), vv(p, c)});                // all edges are left out
+        // Leaves out an edge of the triangle.
+        std::min({ve(p, a, b), ve(p, b, c), is(10) ? HUGE_VAL : ve(p, c, a)});
+    // Leaves out all edges of the triangle.
+    if (is(11)) best = std::min({vv(p, a), vv(p, b), vv(p, c)});
     const V normal = cross(b - a, c - a);
     const double squared = dot(normal, normal);
     const double smallest = is(12) ? 1e-12 : 0;  // treats small triangles as degenerate
@@ -67,7 +71,8 @@ class Distances {
     const double u = dot(cross(p - a, c - a), normal) / squared;
     const double v = dot(cross(b - a, p - a), normal) / squared;
     const double height = dot(p - a, normal);
-    if (is(13) && height < 0) return best;  // finds the inside only from one side of the plane
+    // Finds points inside the triangle only for a vertex on one side of the plane.
+    if (is(13) && height < 0) return best;
     const double least = is(14) ? 0.01 : 0;
     const bool is_inside = u >= least && v >= least && u + v <= (is(15) ? 0.5 : 1);
     if (is_inside)
@@ -82,7 +87,8 @@ class Distances {
     const double area = a * e - b * b;
     const bool has_lengths = a > 0 && e > 0;
     const auto at = [&](double s, double t) { return vv(p + s * d1, q + t * d2); };
-    // Edges count as parallel if `area` is below a threshold: absolute in defect 17, relative in defect 18.
+    // Edges count as parallel if `area` is below a threshold: The threshold is absolute in defect 17, and
+    // relative in defect 18.
     const double parallel = is(17) ? 1e-12 : is(18) ? 1e-4 * a * e : 0;
     if (is(17) || is(18)) {
       if (!has_lengths) return best;
@@ -98,7 +104,7 @@ class Distances {
       const double s = clamped((b * f - c * e) / area);
       return at(s, clamped((b * s + f) / e));
     }
-    if (is(21) || is(22)) {  // alternating projections that stop too soon
+    if (is(21) || is(22)) {  // projects points alternately onto the two edges, and stops too soon
       if (!has_lengths) return best;
       double s = 0, t = 0;
       for (int i = 0; i < (is(21) ? 2 : 20); ++i) {

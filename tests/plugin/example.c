@@ -9,7 +9,7 @@
 
 #include "ccd/nearmiss_subject.h"
 
-/* The smallest and largest coordinate k of the vertices first..last at both times. */
+/* The smallest and the largest coordinate k of the vertices first..last, at t = 0 and t = 1. */
 static void range(const double* x, int k, int first, int last, double* lo, double* hi) {
   *lo = *hi = x[3 * first + k];
   for (int time = 0; time < 2; ++time) {

@@ -125,10 +125,10 @@ inline bool vertex_vertex(Float3 a, Float3 b, Float3 a1, Float3 b1, double& toi)
 
 }  // namespace plain
 
-/// Declared, but never defined.
+/// This function is declared, but never defined.
 bool forgotten(plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P, plain::P);
 
-namespace distances {  // of primitives at rest; the second function has a default argument
+namespace distances {  // distances of primitives at rest; the second function has a default argument
 
 inline double vertex_vertex(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).norm(); }
 inline double vertex_edge_squared(Eigen::Vector3d p, Eigen::Vector3d a, Eigen::Vector3d b, double scale = 1) {

@@ -1,6 +1,6 @@
 /* A plug-in (with LD_PRELOAD also a library) that makes the arithmetic round upward and flush subnormals to
- * zero. It does so when it is loaded, and in every call. It reports a collision if it is called with such
- * arithmetic. */
+ * zero. The plug-in changes the arithmetic when it is loaded, and in every call. It reports a collision if
+ * nearmiss calls it with arithmetic that is changed in this way. */
 #include <fenv.h>
 #include <pmmintrin.h>
 

@@ -1,6 +1,7 @@
 /* A plug-in compiled for version 2 or 3 of the interface (VERSION), whose structure has fewer fields than
- * that of later versions. Code that reads the later fields finds wrong values, which follow the structure in
- * memory. The plug-in reports all queries. It claims the bound 0.125, plus the separation in version 3. */
+ * that of later versions. Code that reads these later fields reads the memory after the structure, which
+ * holds wrong values. The plug-in reports all queries. It claims the bound 0.125; in version 3, it claims
+ * this bound plus the separation. */
 #include <stddef.h>
 
 typedef struct {

@@ -48,7 +48,8 @@ bool is_of_kilometres(const Query& query) {
   return size <= 3 && farthest > 100 && farthest < 20000;
 }
 
-/// How often a query is decided: NEARMISS_SLOWED times on average if is_of_kilometres(), otherwise once.
+/// The number of times that a query is decided: NEARMISS_SLOWED on average if is_of_kilometres() is true for
+/// the query, otherwise 1.
 int decisions(const Query& query) {
   static const double mean = number_in("NEARMISS_SLOWED");
   if (!is_of_kilometres(query)) return 1;
@@ -65,7 +66,8 @@ int decide(const double* x) {
   do {
     hit = nearmiss::wang<kind, double, nearmiss::WangOptions{}>(query).hit;
     ++made;
-  } while (made < decisions(query));  // decisions() runs in each iteration: its time is multiplied too
+    // Decisions() runs in each iteration, so that the time of decisions() is multiplied, too.
+  } while (made < decisions(query));
   return hit != is_wrong(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
 }
 

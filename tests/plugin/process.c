@@ -1,5 +1,5 @@
-/* A subject that reports every query, unless a comment below says otherwise. Macros choose what its process
- * does with a query. */
+/* A subject that reports every query, unless a comment below says otherwise. Macros choose what the
+ * subject's process does besides when it receives a query. */
 #define _GNU_SOURCE
 #include <pthread.h>
 #include <sched.h>

@@ -1,4 +1,5 @@
-/* Several detectors in one shared object. Each does one thing that the interface allows or forbids. */
+/* Several detectors in one shared object. Each detector does one thing that the interface allows or
+ * forbids. */
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>

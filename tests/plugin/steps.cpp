@@ -37,8 +37,10 @@ class Filter {
     if (!(gap > 0)) return is(1) ? let_all_move(y) : 0;  // overlapping boxes
     const double rounding = 1e-14 * (std::abs(above) + std::abs(below));
     if (!(gap > 1e3 * rounding)) return 0;
-    const double part = is(2) ? 0.6 : is(3) ? 0.5 : 0.4;  // planes in the wrong order, or identical
-    const double low = is(4) ? above - part * gap : below + part * gap;  // one primitive gets the wrong plane
+    // With defect 2, the planes are in the wrong order; with defect 3, they are identical.
+    const double part = is(2) ? 0.6 : is(3) ? 0.5 : 0.4;
+    // One primitive gets the plane of the other primitive.
+    const double low = is(4) ? above - part * gap : below + part * gap;
     const double high = above - part * gap;
     for (std::size_t i = 0; i < n_; ++i) {
       const bool is_low = (i < first_) == is_first_below;
@@ -51,20 +53,23 @@ class Filter {
       }
       const double towards = is_low ? motion : -motion;
       double t = towards > room ? room / towards : 1;
-      if (is(5) && !is_low) t = 1;             // one primitive is not filtered
-      if (is(6)) t = std::min(1.0, 1.25 * t);  // a relaxation factor above 1
-      if (is(7) && i + 1 == n_) t = 1;         // the last vertex is left out
+      if (is(5) && !is_low) t = 1;             // does not filter the vertices of one primitive
+      if (is(6)) t = std::min(1.0, 1.25 * t);  // moves vertices by 1.25 times the allowed motion
+      if (is(7) && i + 1 == n_) t = 1;         // does not filter the last vertex
       if (is(8)) t = static_cast<double>(static_cast<float>(t) * 1.5F);
-      if (is(9) && towards < 0) t = 0;               // also stops vertices that move away: safe
-      if (is(11) && std::abs(motion) < 1e-3) t = 1;  // treats slow vertices as at rest
-      if (is(12) && room < 1e-3) t = 1;              // does not stop vertices with little room
+      // Also stops vertices that move away from the other primitive, which is safe.
+      if (is(9) && towards < 0) t = 0;
+      // Treats slow vertices as if they were at rest, and does not filter them.
+      if (is(11) && std::abs(motion) < 1e-3) t = 1;
+      // Does not stop vertices that have little room before their plane.
+      if (is(12) && room < 1e-3) t = 1;
       for (std::size_t k = 0; k < 3; ++k) {
         const double from = q_.x[3 * i + k];
         y[3 * i + k] = t == 1 ? q_.x[size + 3 * i + k] : from + t * (q_.x[size + 3 * i + k] - from);
       }
     }
     const double kept = (1 - 2 * part) * gap - 4 * rounding;
-    if (is(13)) return gap;         // claims the clearance at the start
+    if (is(13)) return gap;         // claims the clearance that the primitives have at the start of the step
     if (is(14)) return 1.5 * kept;  // claims too much
     if (is(15)) return std::abs(kept) + 1e-3;
     if (is(16)) return -kept;  // a negative clearance

@@ -62,8 +62,8 @@ CcdClaim ours(std::string_view name, std::string_view how, const std::function<P
   return audited(name, row_of(name).section, how, problem);
 }
 
-/// The claim that `bound` is large enough, for a row of the audit whose quoted constant is missing or too
-/// small.
+/// The claim that `bound` is large enough. It replaces the quoted constant of a row of the audit, which is
+/// missing or too small.
 CcdClaim replaced(std::string_view name, std::string_view constant, double bound, std::string_view how,
                   const std::function<Problem()>& problem) {
   const RoundingConstant& row = row_of(name);
@@ -125,7 +125,7 @@ std::vector<CcdClaim> full_claims() {
   };
 }
 
-/// Claims about bounds that the audit shows and the code does not use.
+/// Claims about bounds that the audit shows, but that the code does not use.
 std::vector<CcdClaim> shown_claims() {
   return {
       replaced("EE: weight, far p", "weight_far, ccd/wang/bounds/proven.hpp", proven::weight_far, edges,

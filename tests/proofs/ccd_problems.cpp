@@ -92,7 +92,7 @@ Problem configuration(Reach reach, ConfigurationPart part) {
   if (part == ConfigurationPart::height) {
     tol.eta = threshold(problem, "eta");
     std::ignore = configuration.well_shaped(tol);
-    // The third edge of a triangle is within the bound B, too.
+    // The third edge of a triangle, r - q, is within the bound B, as q and r are.
     if (kind == vt)
       for (int i = 0; i < 3; ++i)
         problem.facts.push_back({configuration.r[i] - configuration.q[i], -1, 1, 1});
@@ -185,7 +185,8 @@ Culling culling() {
   Tolerances<Traced> tol{};
   if (excludes_collision<VeCulling::per_root>(pair, coplanarity(pair), configuration, problem.time, tol))
     throw std::runtime_error("the sample is a collision, but it is excluded");
-  // The last comparisons are h > 1, and then w < -slack and N·N + slack < w for each weight w.
+  // The last comparisons that the trace has recorded are h > 1, and then w < -slack and N·N + slack < w for
+  // each weight w.
   const auto& branches = problem.trace->branches();
   const auto last = branches.size() - 1;
   const Branch& h_above_1 = branches.at(last - 2 * configuration.weights.size());

@@ -17,30 +17,31 @@ enum class Reach : std::uint8_t {
   far,   ///< p of two edges, x_0i in a VE test, and x_ji in a VV test are within 2B
 };
 
-/// Parts of the configuration at a time (proximity.hpp): a component of the normal N, or one or both sides of
-/// a comparison.
+/// Parts of the configuration of a pair at one time (proximity.hpp): a component of the normal N, or one side
+/// or both sides of a comparison.
 enum class ConfigurationPart : std::uint8_t { normal, height, weight, inside };
 Problem configuration(Kind kind, Reach reach, ConfigurationPart part);
 
 /// Parts of the cubic (cubic.hpp): its coefficients, and its value at a time.
 enum class CubicPart : std::uint8_t { a, b, c, d, value };
-/// The problem of a part of the cubic that is computed from rounded vectors.
+/// The problem of a part of the cubic, where the part is computed from rounded vectors.
 Problem cubic(Kind kind, CubicPart part);
-/// The problem of a part of the cubic that is computed from exact vectors.
+/// The problem of a part of the cubic, where the part is computed from exact vectors.
 Problem exact_cubic(CubicPart part);
 /// The problem of the cubic's value that Horner's rule computes from exact coefficients.
 Problem horner();
 /// The problem of the cubic's clearance that is computed from exact coefficients.
 Problem clearance_of_exact();
 
-/// The bound B (motion.hpp).
+/// The problem of the computed bound B of a pair (motion.hpp).
 Problem bound(Kind kind);
-/// The part E + W of B: E bounds the edges at t = 0, and W the relative velocities.
+/// The problem of the part E + W of the bound B. Here, E bounds the edges at t = 0, and W bounds the relative
+/// velocities.
 Problem extents(Kind kind);
 
-/// The bound of the change of a weight, in the culling of vertex-edge tests (ve_culling.hpp).
+/// The problem of the bound of a weight's change, in the culling of vertex-edge tests (ve_culling.hpp).
 Problem spread(Kind kind);
-/// The comparison of a weight with N·N plus slack, in the culling of vertex-edge tests.
+/// The problem of the comparison of a weight with N·N plus slack, in the culling of vertex-edge tests.
 Problem culling(Kind kind);
 
 /// Parts of the test of a vertex and an edge (vertex_edge.hpp).

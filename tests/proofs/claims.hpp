@@ -17,7 +17,7 @@ struct CcdClaim {
   std::string_view name;      ///< unique
   std::string_view constant;  ///< identifier and file
   double claimed;
-  double proven;  ///< bound that Gappa proves for every precision, at most `claimed`
+  double proven;  ///< the bound that Gappa proves for every precision; it is at most `claimed`
   std::string_view unit;
   std::string_view how;  ///< how the claim is proven, and which part of it by Gappa
   std::function<Problem()> problem;

@@ -14,7 +14,8 @@ namespace nearmiss::proofs {
 /// The effort and the seed of a search.
 struct ClimbEffort {
   int rounds;
-  int steps;  ///< steps of each round; first, the round makes steps / 4 random draws
+  /// The number of steps of each round; before these steps, the round makes steps / 4 random draws.
+  int steps;
   std::uint64_t seed = 1;
 };
 
@@ -50,7 +51,8 @@ inline double snapped(double x) { return static_cast<double>(MpfrFloat(x)); }
 
 inline double roundoff(int bits) { return std::ldexp(1.0, -bits); }
 
-/// A number in [-size, size]: any number, a small number, 0, or an end.
+/// A random number in [-size, size]: any number of this interval, a number near 0, 0 itself, or an end of the
+/// interval.
 inline double draw_number(Random& random, double size) {
   switch (random.integer(0, 9)) {
     case 0:
@@ -64,7 +66,7 @@ inline double draw_number(Random& random, double size) {
   }
 }
 
-/// A number near x, or a new number in [-size, size].
+/// A random number near x, or a new random number in [-size, size].
 inline double changed_number(Random& random, double x, double size, int bits) {
   switch (random.integer(0, 5)) {
     case 0:

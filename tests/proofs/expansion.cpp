@@ -33,7 +33,8 @@ Expansion with_underflow(Expansion terms) {
   return terms;
 }
 
-/// Expands the result of a program's instruction, after the results of its operands.
+/// Expands the result of an instruction of the program. Expands the results of the instruction's operands
+/// first.
 class Expander {
  public:
   Expander(const Program& program, const Roundings& arithmetic)
@@ -113,7 +114,8 @@ class Expander {
     if (!is_plain) throw std::logic_error("found a magnitude of something other than a difference of inputs");
     return {{1, {{steepest, 1}}, 1, 0}};
   }
-  /// The expansion of the larger of two magnitudes of differences: that of the magnitude with more roundings.
+  /// The expansion of the larger of two magnitudes |x - y| of differences. Both magnitudes have the same
+  /// monomial, so the expansion of the magnitude with more roundings serves for both.
   Expansion largest_magnitude(const Instruction& one) {
     const Expansion a = of(one.left);
     const Expansion b = of(one.right);

@@ -27,7 +27,8 @@ struct Term {
 /// A sum of terms. Without roundings and underflows, the sum is the value in exact arithmetic.
 using Expansion = std::vector<Term>;
 
-/// The errors of operations, as numbers of roundings.
+/// The errors of the operations. The error of an operation is given as the number of roundings that the
+/// operation counts as.
 struct Roundings {
   int quotient = 1;
 };
@@ -36,10 +37,10 @@ inline constexpr Roundings in_double{};
 /// roundings, which are counted as 2.
 inline constexpr Roundings in_double_words{.quotient = 2};
 
-/// The name of 1 - t in monomials, for an input t in [0, 1].
+/// The name that stands for 1 - t in monomials, where t is an input in [0, 1].
 std::string complement(const std::string& t);
 
-/// The name, in monomials, of the largest |x - y| of several pairs of inputs.
+/// The name that stands, in monomials, for the largest |x - y| among several pairs of inputs x and y.
 inline const std::string steepest = "steepest";
 
 /// The expansion of an expression that contains only sums, differences, products, and quotients by constants.

@@ -19,8 +19,8 @@ struct Arithmetic {
   int bits = 53;
   /// If set, each product and quotient has an additional error of up to 2^underflow, for B = 1.
   std::optional<int> underflow{};
-  /// If true, the relative vectors are rounded when they are formed, and all computations with them are
-  /// exact.
+  /// If true, the relative vectors are rounded when they are formed, and all computations with the rounded
+  /// vectors are exact.
   bool vectors_alone = false;
 };
 
@@ -30,14 +30,14 @@ struct ProvenBounds {
   double largest_result;  ///< bound of the magnitudes of all intermediate results
 };
 
-/// Runs Gappa, and keeps its answers, because problems share lemmas. Several threads may use a Prover at
-/// once.
+/// Runs Gappa on scripts, and keeps Gappa's answers, because several problems may need the same lemma.
+/// Several threads may use a Prover at once.
 ///
 /// A problem is proven in steps. First Gappa proves lemmas, which bound the errors of frequent expressions: a
 /// velocity, a position at the time, or an expression of maxima, minima and magnitudes. A maximum, minimum or
 /// magnitude changes by no more than its operands do, so its error is at most the largest error of its
-/// operands. Later scripts have a new variable for each such expression. The last script has all other
-/// operations.
+/// operands. Later scripts have a new variable for each such expression. The last script has all operations
+/// that belong to no lemma.
 class Prover {
  public:
   /// The bounds that Gappa proves. Throws std::runtime_error if Gappa proves no bounds, does not run, or does
@@ -47,7 +47,7 @@ class Prover {
   /// Whether Gappa proves that the error is at most `bound` for B = 1.
   bool proves(const Problem& problem, const Arithmetic& arithmetic, double bound);
 
-  /// The last script that `proves` gives to Gappa.
+  /// The script that `proves` gives to Gappa last, after the scripts of the lemmas.
   std::string script(const Problem& problem, const Arithmetic& arithmetic, double bound);
 
   GappaAnswer run(const std::string& script);

@@ -16,10 +16,10 @@ struct GappaAnswer {
 GappaAnswer run_gappa(const std::string& script, const std::string& options = "");
 
 /// The upper end of the interval that Gappa proves for the only goal of a script, "... in ?", rounded upward.
-/// Gappa computes it with 400 bits, which is finer than the errors of double words.
+/// Gappa computes this end with 400 bits, a precision that is finer than the errors of double words.
 double proven_upper_end(const std::string& script);
 
-/// Whether Gappa proves all goals. Throws like run_gappa.
+/// Whether Gappa proves all goals of a script. Throws the same exceptions as run_gappa.
 bool is_proven(const std::string& script);
 
 }  // namespace nearmiss::proofs

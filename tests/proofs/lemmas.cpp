@@ -35,9 +35,10 @@ bool is_extreme(Operation operation) {
 }
 
 /// Hints for Gappa about a position X = D + t V between D and E. X is a convex combination of D and E, whose
-/// magnitudes are at most `reach`, so |X| is at most `reach`, too. The same holds for the part of X's error
-/// that comes from the errors of D and E; here, `reach` is the bound of these errors. Interval arithmetic
-/// derives this from reach - X and reach + X, which are sums of products of nonnegative numbers.
+/// magnitudes are at most `reach`, so |X| is at most `reach`, too. The hints also serve for the part of X's
+/// error that the errors of D and E cause. This part is a convex combination of the errors of D and E, so
+/// `reach` is then the bound of these two errors. From the hints, interval arithmetic derives that reach - X
+/// and reach + X are not negative, because both are sums of products of nonnegative numbers.
 std::string convex_hints(const char* combination, const char* start, const char* end, double reach) {
   return fmt::format(
       "{0} -> {3} - ((1 - t) * ({3} - {1}) + t * ({3} - {2}));\n"
@@ -60,7 +61,7 @@ class MotionScript {
     ranges_ += " /\\ w - m in " + interval(-most, most);
   }
 
-  /// The script for exact D and V.
+  /// The script for a motion whose computed start and velocity are exactly D and V.
   [[nodiscard]] std::string exact() const {
     return fmt::format(
         "X = D + t * V;\nE = D + V;\n{}{{ {}{} ->\nX in ? /\\ x - X in ? }}\n{}"
@@ -68,7 +69,8 @@ class MotionScript {
         moved("D", "V"), ranges_, roundings("D", "V"), convex_hints("X", "D", "E", reach_));
   }
 
-  /// The script for rounded ends d and e, and their rounded difference v.
+  /// The script for a motion whose ends D and E are rounded to d and e, and whose computed velocity v is the
+  /// rounded difference e - d.
   [[nodiscard]] std::string rounded() const {
     const double u = std::ldexp(1, -arithmetic_.bits);
     return fmt::format(
@@ -82,7 +84,7 @@ class MotionScript {
   }
 
  private:
-  /// x = d + t v without rounding.
+  /// If only the vectors are rounded (`vectors_alone`), the definition of x = d + t v without rounding.
   [[nodiscard]] std::string moved(const char* d, const char* v) const {
     return arithmetic_.vectors_alone ? fmt::format("w = t * {};\nx = {} + w;\n", v, d) : "";
   }
@@ -167,7 +169,8 @@ std::set<int> Lemmas::needed() {
 }
 
 // An extreme (a maximum, a minimum or a magnitude) is a leaf if an operation that is not an extreme uses it.
-// In a program, operands have lower indices, so their lemmas come first.
+// In a program, the operands of an instruction have lower indices than the instruction, so the lemmas of the
+// operands come first.
 void Lemmas::know_extremes() {
   const std::set<int> all = needed();
   std::set<int> used{left_, right_};

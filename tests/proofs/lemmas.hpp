@@ -10,21 +10,22 @@
 
 namespace nearmiss::proofs {
 
-/// A range that Gappa found: lowest and highest value, rounded outwards to double.
+/// The range that Gappa found for an expression: the lowest and the highest value of the expression, rounded
+/// outwards to double.
 struct ProvenRange {
   double lowest, highest;
   [[nodiscard]] double magnitude() const { return std::max(-lowest, highest); }
 };
 
-/// The ranges that Gappa printed, by expression.
+/// Maps each expression in Gappa's output to the range that Gappa printed for this expression.
 std::map<std::string, ProvenRange> bounds_in(const std::string& output);
 
-/// The lemmas of one problem. Each lemma is proven when it is made.
+/// The lemmas of one problem. Gappa proves each lemma when the lemma is made.
 class Lemmas {
  public:
   Lemmas(Prover& prover, const Problem& problem, const Arithmetic& arithmetic);
 
-  /// The script with all operations that are not in a lemma. `goal` is the interval that is to be proven for
+  /// The script with all operations that belong to no lemma. `goal` is the interval that is to be proven for
   /// the error d.
   std::string last_script(const std::string& goal) { return last().text({"d in " + goal}); }
   /// The script whose goals are the ranges of the error and of all results.

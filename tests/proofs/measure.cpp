@@ -118,7 +118,8 @@ double Measure::draw(Random& random, const std::string& name) const {
   }
 }
 
-// Sets the input B, if there is one, to the smallest B that the other inputs allow, or to slightly more.
+// Sets the input B, if the problem has this input, to the smallest B that the other inputs allow, or to a
+// slightly larger number.
 void Measure::choose_bound(Inputs& inputs) const {
   const auto B = inputs.find("B");
   if (B == inputs.end()) return;

@@ -17,8 +17,8 @@ using namespace certified;
 
 // --- the exact errors at given inputs ----------------------------------------------------------------------
 
-/// The relative error, in units of u, of a product whose factors are rounded. The factors are 1 - x for all
-/// inputs x.
+/// The relative error, in units of u, of a product whose factors are rounded. The product has a factor 1 - x
+/// for each input x.
 double seen_leaves(const Inputs& inputs) {
   Rational exact = 1;
   Rational rounded = 1;
@@ -67,8 +67,8 @@ double seen_spread(const Inputs& in) {
   return h < 0 || h > 1 ? 0 : ratio(abs(moved), 2 * h * slope);
 }
 
-/// The amount by which |b1 - b0| is larger for exact coefficients than for computed ones, divided by the
-/// error of a coefficient.
+/// The amount by which |b1 - b0| for the exact coefficients exceeds |b1 - b0| for the computed coefficients,
+/// divided by the error of a coefficient.
 double seen_slope(const Inputs& in) {
   const Rational e(in.at("e"));
   const Rational slope = abs(Rational(in.at("b1")) - Rational(in.at("b0")));
@@ -138,8 +138,8 @@ double seen_word_sum(const Inputs& in) {
   const Rational computed = exact_word(word(in, "a") + word(in, "b"));
   return exact == 0 ? 0 : ratio(abs((computed - exact) / exact), Rational(0x1p-103));
 }
-/// The part of the error of a product of double words that exceeds the bound of the relative error, in units
-/// of the smallest double.
+/// The amount by which the error of a product of double words exceeds the error that the relative bound
+/// allows, in units of the smallest double.
 double seen_word_underflow(const Inputs& in) {
   const Rational exact = exact_word(word(in, "a")) * exact_word(word(in, "b"));
   const Rational computed = exact_word(word(in, "a") * word(in, "b"));

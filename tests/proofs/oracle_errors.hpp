@@ -12,7 +12,8 @@
 
 namespace nearmiss::proofs {
 
-/// Evaluates the results of templates at given inputs, both in the arithmetic of Number and exactly.
+/// Evaluates the results of the oracle's templates at given inputs, both in the arithmetic of Number and
+/// exactly.
 ///
 /// The inputs are components of vectors ("b0y"), lower halves of double words ("b0y.lo", 0 if not given), and
 /// times t and s.

@@ -86,7 +86,8 @@ Traced traced_error_near(Trace& trace) {
   return polynomial.error_near(trace.input("h", 0.5));
 }
 
-/// The number of roundings of `error_near`. For double words, there are two more, those of `upper_halves`.
+/// The number of roundings in the computation of `error_near`. The number includes two roundings of
+/// `upper_halves`, which occur only for double words.
 int roundings_near() {
   Trace trace;
   int most = 0;

@@ -34,7 +34,7 @@ double proven_end_rounding();
 /// 2^-52.
 double proven_upper_halves();
 
-/// The rounding error of `derivative`, in units of U times the largest coefficient.
+/// The rounding error of a value of `derivative`, in units of U times the largest coefficient of the cubic.
 double proven_slope_rounding();
 /// How many times the error of a coefficient enters a value of `derivative`.
 double proven_slope_growth();

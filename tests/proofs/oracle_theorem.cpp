@@ -34,7 +34,8 @@ std::vector<std::string> leaves_of(const Term& term) {
   std::vector<std::string> leaves;
   for (const auto& [name, power] : term.monomial)
     if (is_component(name))
-      leaves.push_back(name);  // each occurs once, because a term's leaves belong to different vectors
+      // Each leaf occurs only once in a term, because the leaves of a term belong to different vectors.
+      leaves.push_back(name);
   return leaves;
 }
 
@@ -90,8 +91,8 @@ std::set<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& p
     const std::string roundings = fmt::format("{} * ({} - {})", script_text(value.coefficient),
                                               factors.product(value.roundings, precision.roundoff),
                                               factors.product(leaves, precision.roundoff));
-    // A script has the magnitudes of the upper halves of double words. A double word is at most (1 + u) times
-    // its upper half.
+    // The magnitudes in a script are those of the upper halves of double words. The magnitude of a double
+    // word is at most (1 + u) times the magnitude of its upper half.
     const std::string halves = factors.product(precision.is_double_word ? degree(monomial) : 0, u);
     const std::string others = fmt::format(
         "{} + {} + {}", times(share(needs.leaves, monomial), 0),

@@ -15,7 +15,9 @@ struct ValuePrecision {
   double roundoff;   ///< U
   double underflow;  ///< H, the largest error of a product by underflow, in units of the smallest double
   Roundings roundings;
-  bool is_double_word;  ///< whether values are double words, so that magnitudes are those of upper halves
+  /// Whether the computed values are double words. If so, the magnitudes of values are those of their upper
+  /// halves.
+  bool is_double_word;
 };
 
 template <class Real>
@@ -35,17 +37,22 @@ struct Bounded {
 /// The parts of a value's error and of its bound, as sums over monomials in the magnitudes and errors of the
 /// leaves (the components of the vectors).
 struct Needs {
-  BoundTerms values;            ///< the value's terms in exact arithmetic, which roundings multiply by 1 + δ
-  BoundTerms leaves;            ///< contribution of given errors of leaves, in exact arithmetic
-  BoundTerms underflows;        ///< contribution of underflow, in units of H
-  BoundTerms bound;             ///< the bound, without its own roundings
-  BoundTerms bound_underflows;  ///< error of the bound by underflow, in units of H of double
+  /// The value's terms in exact arithmetic. Each rounding multiplies a term by a factor 1 + δ.
+  BoundTerms values;
+  /// The part of the error that the given errors of the leaves cause, in exact arithmetic.
+  BoundTerms leaves;
+  /// The part of the error that underflow causes, in units of H.
+  BoundTerms underflows;
+  /// The bound, without the roundings in the computation of the bound.
+  BoundTerms bound;
+  /// The error that underflow causes in the bound, in units of H for double.
+  BoundTerms bound_underflows;
 };
 Needs needs_of(const Bounded& bounded, const ValuePrecision& precision);
 
-/// The scripts that together prove |value - exact value| <= error for all leaves and times. Monomials with
-/// the same coefficients and roundings have the same script, which proves that such a monomial's share of the
-/// bound is at least its share of the error. A share of the error is
+/// The scripts that together prove |value - exact value| <= error for all leaves and times. The script for a
+/// monomial proves that the monomial's share of the bound is at least the monomial's share of the error.
+/// Monomials with the same coefficients and roundings have the same script. A share of the error is
 ///   coefficient |Π (1 + δ) - Π (1 + λ)| + (share of the leaves' given errors) + (share of underflow).
 /// Π (1 + δ) goes over the roundings of a term. Π (1 + λ) goes over its leaves if these are rounded once, and
 /// is 1 otherwise.

@@ -13,8 +13,8 @@
 namespace nearmiss::proofs {
 namespace {
 
-/// Adds the scripts that prove the bounds of all results of some templates, with each bound multiplied by
-/// `factor`.
+/// Adds the scripts that prove the error bounds of all results of some templates. Each bound is multiplied by
+/// `factor` first.
 template <class Real>
 void add_scripts(std::set<std::string>& scripts, Leaves leaves, std::initializer_list<Results> all,
                  double factor = 1) {

@@ -11,7 +11,8 @@ using namespace nearmiss::proofs;
 
 namespace {
 
-/// For each claim, searches for a larger error than the known one. If it finds one, keeps the new witness.
+/// For each claim, searches for inputs with a larger error than that of the claim's known witness. If the
+/// search finds such inputs, keeps them as the new witness.
 template <class Claim>
 void search_all(const std::vector<Claim>& claims, Witnesses& witnesses, const ClimbEffort& effort) {
   for (const Claim& claim : claims) {

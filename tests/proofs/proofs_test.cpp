@@ -81,7 +81,7 @@ TEST(ProofsClaims, FailWhereTheyAreWrong) {
                 };
               }),
               Contains(HasSubstr("Gappa does not prove")));
-  EXPECT_THAT(faults_with([&](CcdClaim& claim) {  // no rounding of the products and sums
+  EXPECT_THAT(faults_with([&](CcdClaim& claim) {  // a problem without rounded products and sums
                 claim.problem = [&] {
                   Problem problem = right.problem();
                   problem.left = problem.motions[0].vector.xv[3] * 1;

@@ -34,8 +34,9 @@ std::vector<double> nodes_of(const Coefficients& k) {
   return nodes;
 }
 
-/// The places to check in the interval between two nodes: its ends, and the exact critical points in it.
-/// (Critical points in double stand for exact ones, because the tested numbers have far fewer bits.)
+/// The places to check in the interval between two nodes: the ends of the interval, and the exact critical
+/// points inside the interval. (Critical points in double stand for exact ones, because the tested numbers
+/// have far fewer bits.)
 std::vector<double> places_between(const Coefficients& k, double left, double right) {
   CandidateTimes<double, 2> critical;
   solve_quadratic(critical, 3 * k[0], 2 * k[1], k[2]);
@@ -47,8 +48,8 @@ std::vector<double> places_between(const Coefficients& k, double left, double ri
   return places;
 }
 
-/// The largest amount by which the cubic F, between two places, leaves the range between its values at these
-/// places.
+/// The largest amount by which the cubic F, at a place between two others of `places`, is above or below both
+/// of the values that F has at these two places.
 double wrong_way(const Cubic<double>& F, const std::vector<double>& places) {
   double most = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -116,8 +117,8 @@ TEST(ProofsSolverCubic, NodesPartFWhereASearchComesNearTheBound) {
 }
 
 TEST(ProofsSolverCubic, NodesPartFForAllNumbersOfFourBits) {
-  // For u = 2^-4, the full formula has no meaning, because u is too large. The bound with only its leading
-  // terms holds.
+  // For u = 2^-4, the full formula of the bound has no meaning, because u is too large. But the error is
+  // within the bound that has only the formula's leading terms.
   constexpr int bits = 4;
   const MpfrFloat::PrecisionScope precision(bits);
   std::vector<double> all{0};
@@ -126,7 +127,7 @@ TEST(ProofsSolverCubic, NodesPartFForAllNumbersOfFourBits) {
       for (const int sign : {1, -1}) all.push_back(sign * std::ldexp(i, exponent - 3));
   double worst = 0;
   for (const double a : all) {
-    if (a < 0) continue;  // -F gives the same result
+    if (a < 0) continue;  // the cubic -F gives the same result as F
     for (const double b : all) {
       for (const double c : all) {
         const Coefficients k{a, b, c, 0};

@@ -128,9 +128,9 @@ double highest_rise(int bits, double rho, const ClimbEffort& climb) {
   return found;
 }
 
-// The rise is a multiple of u, not of u^½. If it contained the square root of a rounding error, the ratio
-// would grow with the number of bits like u^-½: by 2^12 from 8 to 32 bits. (Up to 17 bits, u^½ is below the
-// bound, 470 u, so only the runs with more bits can show such a growth.)
+// The rise is a multiple of u, not of u^½. If the rise contained the square root of a rounding error, the
+// ratio would grow with the number of bits like u^-½: by 2^12 from 8 to 32 bits. (Up to 17 bits, u^½ is below
+// the bound, 470 u, so only the runs with more bits can show such a growth.)
 TEST(ProofsSolverEdge, FRisesByRoundingsAlone) {
   for (const int bits : {8, 11, 16, 24, 32}) {
     const double found = highest_rise(bits, 2 * roundoff(bits), {.rounds = 5, .steps = 2500});

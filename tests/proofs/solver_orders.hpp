@@ -12,16 +12,16 @@ Number power(const Number& x, int k) {
   return all;
 }
 
-/// The growth (1 + u)^k - 1.
+/// The largest relative error that k roundings can cause: (1 + u)^k - 1.
 template <class Number>
 Number growth(const Number& u, int k) {
   return power(u + Number(1), k) - Number(1);
 }
 
 /// Errors of `solve_quadratic` (quadratic.hpp), whose times t are nearly the roots t' of the polynomial with
-/// c' in place of c. `constant` is the relative difference of c' from c. `factor`, called θ there, is the
-/// relative difference of t from t'. `time` is |t' - t| if t' or t is in [0, 1]. The leading coefficient is
-/// exact, or is rounded once, as a cubic's 3a is.
+/// c' in place of c. `constant` is the relative difference of c' from c. `factor`, called θ in quadratic.hpp,
+/// is the relative difference of t from t'. `time` is |t' - t| if t' or t is in [0, 1]. The leading
+/// coefficient is exact, or is rounded once, as a cubic's 3a is.
 template <class Number>
 struct QuadraticErrors {
   Number constant, factor, time;
@@ -63,7 +63,7 @@ EdgeBounds<Number> edge_bounds(const Number& u, int k_a, int k_b, int k_c) {
           growth(u, k_a) * Number(2) + growth(u, k_b) * Number(6) + growth(u, k_c) * Number(4)};
 }
 
-/// 2Δ (vertex_edge.hpp), without the dropped coefficients and the error of x_ji.
+/// 2Δ (vertex_edge.hpp), without the parts of Δ that the dropped coefficients and the error of x_ji cause.
 template <class Number>
 Number edge_difference(const Number& u, const EdgeBounds<Number>& bounds) {
   const QuadraticErrors<Number> errors(u, false);

@@ -13,7 +13,7 @@ namespace {
 
 const RationalFunction u = RationalFunction::variable();
 const Fraction largest(1, 1024);
-/// The part of an error that underflow causes; the closed forms allow 1 u for it.
+/// The part of an error that underflow causes. The closed forms allow 1 u for this part.
 const RationalFunction underflow = u * Fraction(9, 10);
 
 bool holds(const RationalFunction& less, const RationalFunction& more) {

@@ -71,7 +71,8 @@ struct TheoremBounds {
 };
 
 /// Applies the theorem, with one exception: the size of a position x + t v is the bound of its two ends, not
-/// the sum of the sizes of x and t v. With a = 1 + ε and m = k_t + k_v + 1, its error is at most
+/// the sum of the sizes of x and t v. With a = 1 + ε and m = k_t + k_v + 1, the error of the position is at
+/// most
 ///   ((a^k_x - 1) + (a^m - 1)) a + ε = a^(k_x + 1) + a^(m + 1) - a - 1 <= a^(k_x + m + 1) - 1,
 /// since (a^k_x - 1)(a^m - 1) >= 0. For exact vectors, the exponent is 2, as in the paper (§4.2).
 TheoremBounds theorem_bounds(const Problem& problem, Vectors vectors) {
@@ -81,8 +82,8 @@ TheoremBounds theorem_bounds(const Problem& problem, Vectors vectors) {
   std::map<int, TheoremBound> given;
   for (const BoundedExpression& input : problem.inputs) given.insert({program.add(input.expression), {1, 0}});
   for (const auto& [vector, start, end, velocity] : problem.motions) {
-    // A rounded position has one rounding. A velocity has the roundings of both positions, and that of their
-    // difference.
+    // A rounded position has one rounding. A velocity has the roundings of both positions, and the rounding
+    // of the difference of the positions.
     const int k_x = vectors == Vectors::exact ? 0 : 1;
     const int k_v = vectors == Vectors::exact ? 0 : static_cast<int>(start + end + velocity);
     const auto at = vector.at(problem.time);
@@ -112,8 +113,8 @@ TEST(ProofsTheorem, HasTheRulesOfThePaper) {
   EXPECT_TRUE(std::isinf((x / x).error()));
 }
 
-// The operations of ccd/ are those that the paper counts: the theorem gives the paper's sizes and numbers of
-// roundings.
+// The operations in ccd/ are the operations that the paper counts: applied to ccd/, the theorem gives the
+// same sizes and numbers of roundings as the paper states.
 TEST(ProofsTheorem, FindsThePapersBoundsInOurOperations) {
   using enum ConfigurationPart;
   EXPECT_EQ(exact(exact_vertices(Reach::near, VertexPart::xv)).left, TheoremBound(3, 3));

@@ -36,10 +36,12 @@ class Trace;
 /// One operation with its operands; immutable, and shared by all expressions that contain it.
 struct Node {
   Operation operation = Operation::constant;
-  std::shared_ptr<const Node> left{}, right{};  ///< null without such an operand
-  double value = 0;        ///< value of a constant; of any other node, its value at the sample of the inputs
+  std::shared_ptr<const Node> left{}, right{};  ///< null if the operation has no such operand
+  /// The value of a constant. For any other node, the value of its expression if each input has its sample
+  /// value.
+  double value = 0;
   std::string name{};      ///< the name of an input
-  Trace* trace = nullptr;  ///< trace of the inputs; null without inputs
+  Trace* trace = nullptr;  ///< the trace of the expression's inputs; null if the expression has no inputs
 };
 
 /// A comparison that a template made: left < right, left <= right or left == right. The template then takes
@@ -71,7 +73,8 @@ class Trace {
 
 /// A scalar for the templates of ccd/ and oracle/. Each operation makes a node. The trace records comparisons
 /// of expressions that contain inputs; the inputs' samples decide them. `max`, `min` and `clamp`, found by
-/// argument-dependent lookup, make nodes and compare nothing; std::max itself would compare.
+/// argument-dependent lookup, make nodes and compare nothing, whereas std::max itself would make a
+/// comparison, which the trace would record.
 class Traced {
  public:
   Traced(double constant = 0)
@@ -165,8 +168,8 @@ struct std::numeric_limits<nearmiss::proofs::Traced> : std::numeric_limits<doubl
   static nearmiss::proofs::Traced max() { return std::numeric_limits<double>::max(); }
 };
 
-/// The costs are those of double, so that Eigen adds in the order in which it adds doubles without vector
-/// instructions.
+/// The costs of the operations are those of double, so that Eigen adds these scalars in the order in which
+/// Eigen adds doubles without vector instructions.
 template <>
 struct Eigen::NumTraits<nearmiss::proofs::Traced> : Eigen::NumTraits<double> {
   using Real = nearmiss::proofs::Traced;

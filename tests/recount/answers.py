@@ -115,7 +115,8 @@ def _queries(nearmiss, seed, counts):
 
 
 def _numbers(kind, count):
-    """The numbers of the first queries of a kind in a family: even for vt and vv, otherwise odd."""
+    """The numbers of the first queries of a kind in a family. These numbers are even for vt and
+    vv, and odd for the other kinds."""
     first = KINDS.index(kind) % 2
     return range(first, first + 2 * count, 2)
 
@@ -166,7 +167,7 @@ class Known:
         self._ask_about, self._known = ask_about, {}
 
     def of(self, queries):
-        """The lower and the upper ends of the enclosures for some queries."""
+        """The lower and the upper ends of the enclosures of the quantity for some queries."""
         new = sorted({query for query in queries if query not in self._known})
         self._known.update(zip(new, self._ask_about(new).T))
         return np.array([self._known[query] for query in queries]).reshape(-1, 2).T

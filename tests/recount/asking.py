@@ -17,7 +17,7 @@ def coordinates(kind, line):
 
 
 def separation(kind, line):
-    """The separation in the line of a query; 0 if the line has none."""
+    """The separation in the line of a query; 0 if the line has no separation."""
     words = line.split()[6 * VERTICES[kind] :]
     return float.fromhex(words[0]) if words else 0.0
 

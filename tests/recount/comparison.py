@@ -75,7 +75,7 @@ class Comparison:
         self._note(sort, where, found, expected, False)
 
     def agree(self, sort, count):
-        """Counts values that are as expected."""
+        """Counts values that agree with the expected ones."""
         self.compared[sort] = self.compared.get(sort, 0) + count
 
     def section(self, check, where, *arguments):

@@ -50,12 +50,14 @@ class Enclosed:
         return least, most
 
     def largest(self):
-        """The ranges in which a report may give the KEPT largest numbers, the largest first."""
+        """For each of the KEPT largest numbers, the largest first: the range in which a report may
+        give this number."""
         lo, hi = (np.sort(end)[::-1][:KEPT] for end in (self.lo, self.hi))
         return [reported(*ends) for ends in zip(lo, hi)]
 
     def most(self):
-        """The range in which a report may give the largest number; (0, 0) without numbers."""
+        """The range in which a report may give the largest number; (0, 0) if there are no
+        numbers."""
         return self.largest()[0] if len(self) else (0, 0)
 
     def reported(self, place):
@@ -63,8 +65,8 @@ class Enclosed:
         return reported(self.lo[place], self.hi[place])
 
     def quantile_bins(self, part):
-        """The first and the last bin in which the quantile may be, or None without numbers. At least a
-        fraction `part` of all numbers is not larger than the quantile."""
+        """The first and the last bin in which the quantile may be, or None if there are no
+        numbers. At least a fraction `part` of all numbers is not larger than the quantile."""
         if len(self) == 0:
             return None
         place = max(int(np.ceil(part * len(self))), 1) - 1
@@ -72,7 +74,7 @@ class Enclosed:
 
 
 def reported(lo, hi):
-    """The range in which a report may give a number between lo and hi. Reports round up.
+    """The range in which a report may give a number between lo and hi. Reports round numbers up.
 
     The largest double stands for infinity. Instead of a number below all borders of bins, a report
     may give any number up to the lowest border."""

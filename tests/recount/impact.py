@@ -146,8 +146,8 @@ def _speeds(nearmiss, kind, queries):
         speed = relative.max(axis=(1, 2))
         speed[np.isinf(speed)] = 0  # as in the program that makes the report
 
-        # Allows for the rounding of quotients by B, and for the few digits of `bound`, from which
-        # B is computed, if it is subnormal.
+        # Allows for the rounding of quotients by B. Also allows for a subnormal `bound`, because B
+        # is computed from `bound`, and a subnormal number has few digits.
         relative_error = 1e-12 + 1e-322 / bound
         slack = np.nan_to_num(
             1e-15 * np.abs(place).max(axis=(1, 2, 3)) + speed * relative_error, nan=np.inf
@@ -156,7 +156,8 @@ def _speeds(nearmiss, kind, queries):
 
 
 def _as_meshes(kind, pairs):
-    """Makes queries of vt or ee by repeating the last vertex. Returns their kind and the queries."""
+    """Turns queries of any kind into queries of vt or ee, by repeating the last vertex of a query
+    until the query has four vertices. Returns the new kind and the new queries."""
     missing, count = 4 - VERTICES[kind], 3 * VERTICES[kind]
     whole = [
         ' '.join(

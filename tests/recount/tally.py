@@ -63,7 +63,8 @@ class Tally:
         )
 
     def refuted(self):
-        """The least and the largest number of refuted bounds that the enclosures of the ratios allow."""
+        """The smallest and the largest number of refuted bounds that are possible, given the
+        enclosures of the ratios of distance to bound."""
         if not self.claims:
             return 0, 0
         return int((self.ratios.lo > 1).sum()), int((self.ratios.hi > 1).sum())
@@ -88,7 +89,8 @@ class Tally:
 
 
 def _part(answers, subject, kind, family):
-    """The answers to queries of a kind, and which of these queries are of `family`."""
+    """The answers to the queries of a kind, and the index that selects the queries of `family`
+    among them."""
     names = (family,) if isinstance(family, str) else family
     own = slice(None) if names is None else np.isin(answers.family[kind], names)
     return answers.asked[subject, kind], own

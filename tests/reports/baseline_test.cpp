@@ -40,7 +40,7 @@ TEST(Changes, TheFirstFailureOfACleanSubjectIsNewAtOnce) {
   now.statistics.seen = {{{Finding::What::oracle_disagreement, "", "ee"}, 1}};
   before.statistics.seen[{Finding::What::oracle_disagreement, "", "vt"}] = 1;
   EXPECT_THAT(changes(now, before).new_signatures,
-              SizeIs(1));  // a single failure of the oracle is new
+              SizeIs(1));  // a failure of the oracle is new even if it occurs only once
 }
 
 TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
@@ -52,13 +52,15 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   const Changes chance = changes(now, before);
   EXPECT_THAT(chance.new_signatures, IsEmpty());
   EXPECT_THAT(chance.unseen_signatures, ElementsAre(Signature{missed, "mine", "d"}));
-  // Good and Toulmin's estimate: b and c, seen once before, count 1 each; a, seen 40 times, counts -1.
+  // The estimate of Good and Toulmin: the signatures b and c, which the earlier campaign has seen once, count
+  // 1 each. The signature a, which it has seen 40 times, counts -1.
   EXPECT_DOUBLE_EQ(chance.expected_unseen, 2 - 1);
   EXPECT_THAT(lines_for_the_worse(chance), IsEmpty());
 
   now.statistics.seen[{missed, "mine", "d"}] = 20;
   EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "mine", "d"}));
-  now.statistics.seen = {{{missed, "mine", "a"}, 140}};  // a known signature, but far more frequent
+  // The signature a is known, but is far more frequent than before.
+  now.statistics.seen = {{{missed, "mine", "a"}, 140}};
   EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "mine", "a"}));
 }
 
@@ -152,7 +154,7 @@ TEST(Baseline, RatesAreComparedWithTheSum) {
 TEST(Baseline, RandomQueriesCountOnce) {
   const Campaign once = night("1", {});
   EXPECT_REFUSED(add_up(std::vector{once, once}), "shard 0/1 of the run with seed 1 twice");
-  Campaign replay = once;  // asks the same cases every time
+  Campaign replay = once;  // a replay asks the same cases every time
   replay.runs[0].info = {{"command", "replay"}};
   EXPECT_EQ(add_up(std::vector{replay, replay}).statistics.queries_of("mine"), 400000);
 }
@@ -242,7 +244,7 @@ TEST(Gone, IsWhatChanceWouldHardlyHide) {
   EXPECT_THAT(chance.unrepeated_signatures, ElementsAre(inside));
 }
 
-// Chance could explain the absence of each single failure, but hardly that of all 30.
+// Chance could explain the absence of each single failure, but hardly the absence of all 30 failures.
 TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   Seen rare;
   for (int i = 0; i < 30; ++i) rare[{missed, "mine", "way " + std::to_string(i)}] = 1;
@@ -277,7 +279,8 @@ TEST(Gone, NeedsTheQueriesOfEveryFamily) {
   EXPECT_THAT(changes(crashes, before).gone_signatures, IsEmpty());
 }
 
-// Each signature had 40 failures. 38 of them were in cases, which the later campaign does not replay.
+// Each signature had 40 failures. 38 of these failures were in cases, which the later campaign does not
+// replay.
 TEST(Gone, DoesNotCountFailuresInCases) {
   const Signature late{Finding::What::late, "mine", "ee inside"};
   const Signature crash{Finding::What::fault, "mine", "ee crash"};

@@ -199,7 +199,8 @@ TEST(Campaign, TheSameQueriesDoNotCountTwice) {
        {CountsKey{"basic", Kind::edge_edge, "uniform"}, CountsKey{"wang", Kind::vertex_triangle, "uniform"},
         CountsKey{"wang", Kind::edge_edge, "uniform~0.5"}, CountsKey{"wang", Kind::edge_edge, "uniform@1"}})
     EXPECT_EQ(merge(some, asked("uniform", "301", other)).runs.size(), 2) << other.family;
-  EXPECT_EQ(merge(some, asked("needle", "301", uniform)).runs.size(), 2);  // this run asked only needle
+  // This run asked only the family `needle`.
+  EXPECT_EQ(merge(some, asked("needle", "301", uniform)).runs.size(), 2);
   Campaign other_seed = asked("uniform", "301", uniform);
   other_seed.runs[0].info["seed"] = "4";
   EXPECT_EQ(merge(some, other_seed).runs.size(), 2);

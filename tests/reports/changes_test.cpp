@@ -68,7 +68,7 @@ TEST(Changes, TheMoreRatesAreComparedTheMoreItTakes) {
 }
 
 // If there was no miss before, 11 misses in 10,000 collisions are significant in a single test with the risk
-// 0.001. If four tests share this risk, it takes 13 misses.
+// 0.001. If four tests share this risk, 13 misses are needed for a significant change.
 TEST(Changes, AFewAfterNoneAreEnough) {
   const auto with = [](std::uint64_t missed) {
     return campaign("1", {{uniform, counts(20000, 10000, missed, 0)}});
@@ -91,8 +91,8 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const Changes found = changes(with(1, 500), with(0, 500));
   ASSERT_THAT(found.rates, SizeIs(1));
   EXPECT_THAT(lines_for_the_worse(found), SizeIs(1));
-  // The rates of families with few failures are added up for three limits of "few". The smallest of the three
-  // p-values is multiplied by 3.
+  // The counts of all families with few failures are added up, once for each of three limits of "few". The
+  // smallest of the three p-values is multiplied by 3.
   EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);
   EXPECT_EQ(
       describe(found),
@@ -244,8 +244,8 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
   EXPECT_NEAR(alone[0].ratio() / 118, 1, 0.05);
 }
 
-// If a family's times differ by a factor of 1.5 between the nights of the baseline, the same factor now is no
-// change.
+// If a family's times differ by a factor of 1.5 between the nights of the baseline, a difference by the same
+// factor in the present night is no change.
 TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   std::vector<Campaign> nights;
   for (int i = 0; i < 8; ++i) nights.push_back(night(std::to_string(i), i % 2 == 0 ? one_slower : usual));
@@ -253,19 +253,21 @@ TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   EXPECT_THAT(changed(night("now", usual), nights), IsEmpty());
   const auto other =
       changed(night("now", [](const CountsKey& key) { return key.family == "f3" ? 1.5 : 1.0; }), nights);
-  EXPECT_THAT(other, SizeIs(4));  // f3 of each subject and kind
+  EXPECT_THAT(other, SizeIs(4));  // the family f3, for each subject and kind
 }
 
 TEST(ChangedTimes, ATimeThatWasUncertainSaysLittle) {
   Campaign before = night("1", usual);
   SubjectTimes& times = before.statistics.counts[one].times;
   times = {};
-  for (std::uint64_t batch = 0; batch < 10; ++batch)  // now, the batches take 800 ns
+  // In the later night, each batch takes 800 ns per query.
+  for (std::uint64_t batch = 0; batch < 10; ++batch)
     for (const std::uint64_t ns : {160, 1600}) times.add(one.kind, one.family, {1000, ns * (1000 + batch)});
   EXPECT_THAT(changed(night("2", usual), {before}), IsEmpty());
 }
 
-// A single family does not show how much the times of families usually vary.
+// A single family does not show how much the times of families usually vary. So the times of a few families
+// are compared with the times of other subjects.
 TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
   const auto few = [](double factor) {
     return [factor](const CountsKey& key) {

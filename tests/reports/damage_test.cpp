@@ -58,7 +58,8 @@ void expect_part(const Campaign& part, const Campaign& whole) {
   EXPECT_THAT(whole.statistics.factors, IsSupersetOf(part.statistics.factors));
   EXPECT_THAT(whole.statistics.versions, IsSupersetOf(part.statistics.versions));
   EXPECT_THAT(whole.statistics.extremes, IsSupersetOf(part.statistics.extremes));
-  // If the row with a count is lost, the stored findings are counted instead, and may be fewer.
+  // If the row with a signature's count is lost, the stored findings with this signature are counted instead.
+  // There may be fewer stored findings than the lost row has counted.
   for (const auto& [signature, count] : part.statistics.seen)
     EXPECT_LE(count, whole.statistics.times_seen(signature));
   for (const Run& run : part.runs) {
@@ -168,7 +169,8 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
         Change{nested_views(), "found other tables than those of a store", ""},
         Change{"CREATE TRIGGER t INSERT ON run BEGIN DELETE FROM run; END",
                "found other tables than those of a store", ""},
-        // In place of the table `seen`: a view with endlessly many rows; a table with large computed values.
+        // The next two changes replace the table `seen`: by a view with endlessly many rows, and by a table
+        // with large computed values.
         Change{"DROP TABLE seen; CREATE VIEW seen AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n "
                "FROM r) "
                "SELECT n AS rowid, n AS key, n AS value, n AS checksum FROM r",
@@ -213,7 +215,7 @@ TEST_F(DamageTest, AnyNumberOfRowsMayBeClaimed) {
 
 TEST_F(DamageTest, RowsDoNotShareALongValue) {
   constexpr std::size_t page_size = 4096;
-  // SQLite stores 489 bytes of the row on the table's page, and the others on other pages.
+  // SQLite stores 489 bytes of the row on the table's page, and the other bytes of the row on other pages.
   const std::string key = R"([0,"scene:cloth"])";
   const std::string value = R"({"points":")" + std::string(489 + 25 * (page_size - 4) + 3800, 'x') + "\"}";
   write_campaign({{{{}, {}, {}, {{"scene:cloth", value}}}}, {}}, file("b.db"));

@@ -97,7 +97,8 @@ TEST(CommonFactors, CountsMergeInAnyOrder) {
   EXPECT_EQ(forward.factors.at(basic), (FactorCounts{128, 20}));
 }
 
-/// For each edge length 2^-30, 2^-29 .. 2^30: the answers to `each` collisions and to `each` other queries.
+/// For every edge length 2^-30, 2^-29 .. 2^30, counts the answers to `each` collisions, and to as many
+/// queries that are no collisions.
 template <class Missed, class Reported>
 FactorTable answers(Kind kind, int each, const Missed& missed, const Reported& reported) {
   FactorTable table;
@@ -166,10 +167,11 @@ TEST(RightRange, IsSeenInFewMissesIfAllAreElsewhere) {
 }
 
 TEST(RightRange, IsNotSeenInMissesThatAreRareEverywhere) {
-  // One collision in 60 is missed, whatever the size is. Then four sizes in a row without a miss say nothing.
+  // One collision in 60 is missed, whatever the size is. Then four sizes in a row without a miss do not show
+  // that the subject is right at these sizes.
   const auto rare = [](int x, int i) { return (x + 30) % 5 == 0 && i == 0; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 12, rare, never)).exponents);
-  // A single miss says nothing about sizes, either.
+  // A single miss does not show at which sizes the subject is right, either.
   const auto once = [](int x, int i) { return x == -12 && i == 0; };
   EXPECT_FALSE(range_of(answers(Kind::edge_edge, 12, once, never)).exponents);
 }

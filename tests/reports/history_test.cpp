@@ -22,7 +22,7 @@ const std::string contact = "vt simple-root inside in-face";
 struct Said {
   std::string version;
   std::vector<std::string> seen = {}, created = {}, gone = {};  // signatures
-  std::vector<std::string> worse = {};                          // families with a worse rate
+  std::vector<std::string> worse = {};                          // families in which a rate is worse
   double slower = 0;                                            // run time now / expected run time
   double ns = 100;
 };
@@ -40,7 +40,7 @@ class HistoryOfNights : public testing::TemporaryFolder {
   }
 
   /// Writes the report of a night. The baseline is a run of the day `baseline_until`; there is no baseline if
-  /// this is 0.
+  /// `baseline_until` is 0.
   void write_night(int day, const Said& said, int baseline_until = 0) {
     const auto date = [](int of) { return fmt::format("2026-11-{:02}T22:00:00Z", of); };
     ordered_json report{
@@ -130,8 +130,8 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
       HasSubstr("2026-11-09  FAIL  1,000  mine: 1 new way to fail: false-negative, a; mine: version"));
 }
 
-// nearmiss sees no change of the subject's code. It never sees one if the subject is a program (pipe:...),
-// because it does not know a program's code.
+// In this history, nearmiss sees no change of the subject's code. If the subject is a program (pipe:...),
+// nearmiss never sees a change of the program's code, because nearmiss does not know this code.
 TEST_F(HistoryOfNights, TellsAnotherFailureOfTheSameCodeAfterARepair) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1", .seen = {"a"}, .created = {"a"}}, 1);

@@ -72,7 +72,7 @@ TEST(Summary, OnlyRandomSamplesHaveARate) {
     counts.add({.verdict = {true, Stage::vv, 0}, .collision = true}, query, [] { return ""; });
     return statistics;
   };
-  // For 0 misses in 1 collision, the upper bound of the rate is 95 %.
+  // For 0 misses in 1 collision, the upper confidence bound of the rate of misses is 95 %.
   EXPECT_THAT(summary_table(of("uniform")), HasSubstr("0.95"));
   for (const std::string family : {"cases/", "scene:cloth#3"}) {
     EXPECT_THAT(summary_table(of(family)), ::testing::Not(HasSubstr("0.95"))) << family;

@@ -210,7 +210,7 @@ TEST(Exoticness, OrdersClassesAndDegenerateQueriesWithinTheirs) {
   EXPECT_EQ(exoticness(falling_query, QueryClass::extreme), 4);
   EXPECT_EQ(exoticness(zeros, QueryClass::extreme), 5);
   EXPECT_EQ(exoticness(falling_query, QueryClass::unclassified), 6);
-  for (const Kind kind : kinds_of_vertices) {  // their queries repeat a vertex
+  for (const Kind kind : kinds_of_vertices) {  // the queries of these kinds repeat a vertex
     const std::array<double, 18> different{0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 2, 1, 3, 4, 5, 9};
     EXPECT_EQ(exoticness(query_of(kind, different.data()), QueryClass::degenerate), 1);
   }
@@ -220,7 +220,9 @@ TEST(Exoticness, PointsCoincideIfTwoVerticesDoAtOneEndOfTheStep) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) {
       Query moving = falling_query;
-      moving.set_end(i, moving.start(j));  // i ends where j starts: they coincide only if j rests
+      // Vertex i ends where vertex j starts, so both vertices coincide at the end of the step only if j
+      // rests.
+      moving.set_end(i, moving.start(j));
       const int expected = i != j && j > 0 ? 2 : 1;
       EXPECT_EQ(exoticness(moving, QueryClass::degenerate), expected) << i << ' ' << j;
       moving.set_end(i, moving.end(j));
@@ -242,7 +244,8 @@ TEST(Confidence, TheTailHasFivePercent) {
   EXPECT_NEAR(tail, 0.05, 1e-9);
 }
 
-// At the upper end of the interval, P(X <= count) is half of the risk; at the lower end, P(X >= count) is.
+// At the upper end of the interval, P(X <= count) is half of the risk; at the lower end, P(X >= count) is
+// half of the risk.
 TEST(Confidence, EachTailOfTheIntervalHasHalfOfTheRisk) {
   const auto at_most_one = [](double p) { return std::pow(1 - p, 8) * (1 + 8 * p); };  // of 9 trials
   const ConfidenceInterval interval = clopper_pearson(1, 9, 0.01);

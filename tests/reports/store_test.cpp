@@ -97,8 +97,8 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   std::filesystem::create_directory(file("killed"));
   {
     const Database db(file("a.db"));
-    // Without a cache, SQLite writes the change to the file before the commit. A process that is killed
-    // between the two leaves the file in this state.
+    // Without a cache, SQLite writes the change to the file before the commit. A process that is killed after
+    // this write and before the commit leaves the file in this state.
     db.execute(
         "PRAGMA cache_size = 0; BEGIN IMMEDIATE; DELETE FROM shard; PRAGMA user_version = 1;"
         "CREATE TABLE other AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 9999) "

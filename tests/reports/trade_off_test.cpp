@@ -81,7 +81,8 @@ TEST(TradeOff, DistancesOnALadderAreComparedInUnitsOfB) {
   EXPECT_FALSE(trade_offs_json(statistics).contains("ladder"));  // only two scalars
   statistics.counts[at("wang:p80")] = counts(100, 50, 0, 30, 300);
   statistics.counts[at("wang:p80")].farthest = {{1, {}, "f:1:0"}};
-  statistics.counts[at("defect:vv")] = counts(100, 50, 0, 30, 10);  // its unit of distances is not known
+  // The unit of the distances of defect:vv is not known.
+  statistics.counts[at("defect:vv")] = counts(100, 50, 0, 30, 10);
   statistics.counts[at("exact")] = counts(100, 50, 0, 0, 1000);
   const auto json = trade_offs_json(statistics);
   const double paper = 40.963 * 0x1p-13;
@@ -214,7 +215,8 @@ TEST(Ladder, EachOriginHasAFitOfItsOwn) {
   EXPECT_EQ(all[1]["origin"], "directed search");
   EXPECT_EQ(all[2]["origin"], "uniform");
   for (const auto& each : all) {
-    EXPECT_NEAR(each["exponent"], 0.25, 1e-5);  // only nearly, because D² also has a term in ε
+    // The exponent is only nearly 1/4, because D² also has a term in ε.
+    EXPECT_NEAR(each["exponent"], 0.25, 1e-5);
     EXPECT_EQ(each["precisions"], 3);
   }
 }

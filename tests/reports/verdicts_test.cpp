@@ -241,7 +241,8 @@ TEST(Headline, ASubjectOfWhichNothingWasAskedHasNotPassed) {
   EXPECT_FALSE(headline(of, std::nullopt).clean);
 }
 
-// A fault raises an alarm only in the first campaign that has it; a broken promise does so in every campaign.
+// A fault raises an alarm only in the first campaign that has it; a broken promise raises an alarm in every
+// campaign that has it.
 TEST(Headline, AlarmsWhileAPromiseIsBrokenAndOnceAboutWhatLasts) {
   const CountsKey key{"a", Kind::vertex_triangle, "uniform"};
   const Campaign good = campaign("1", {{key, counts(9, 5, 0, 0)}});

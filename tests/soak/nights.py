@@ -40,7 +40,8 @@ class Machine:
 
         with (self.folder / 'said').open('w', encoding='utf-8') as said:
             # Python ignores SIGXFSZ, the signal for a file that is too large. If file sizes are
-            # limited, nearmiss inherits this, so that a write fails, but no signal ends nearmiss.
+            # limited, nearmiss inherits from Python that SIGXFSZ is ignored. So a write beyond the
+            # limit fails, but no signal ends nearmiss.
             return subprocess.Popen(
                 [self.nearmiss, *command], cwd=self.folder, env=environment, preexec_fn=prepare,
                 stdout=subprocess.DEVNULL, stderr=said, restore_signals=largest_file is None,

@@ -50,7 +50,8 @@ for right in 0 1; do
   git worktree list | grep -q bisect && fail "a worktree is left"
 done
 
-# Commit 2 does not build, so the CCD may be broken since commit 2 or 3: tools/bisect prints both commits.
+# Commit 2 does not build, so either commit 2 or commit 3 may have broken the CCD: tools/bisect
+# prints both commits.
 git checkout -q --orphan skipped
 commit 1 1; commit 2 nonsense; commit 3 0
 code=0

@@ -28,7 +28,8 @@ TEST_F(CommandLine, OracleAnswersByEveryMethod) {
 }
 
 TEST_F(CommandLine, OracleSaysWhatAMethodDoesNotKnow) {
-  // The triangle is degenerate, an edge. Its smallest distance from the vertex is exactly 1, when 2 t² = 1.
+  // The triangle is degenerate: it is an edge. The distance of the vertex from this edge is smallest at the
+  // time t with 2 t² = 1, and is exactly 1 then.
   write("q.vt", "0 -.5 1  -1 0 0  1 0 0  -1 0 0   -1 -.5 1  -1 -1 0  1 1 0  -1 -1 0   1\n");
   EXPECT_EQ(run("oracle --kind vt q.vt").out, "1\n");
   EXPECT_EQ(expect_code(1, "oracle --kind vt q.vt --method certificate").out, "-\n");
@@ -115,7 +116,7 @@ TEST_F(CommandLine, ASceneWithoutUndecidedPairsSaysThatNothingWasAsked) {
                 "asks about them), nor around them\n"));
 }
 
-// The mesh has no pair of edges that could meet.
+// In this mesh, no two edges could meet.
 TEST_F(CommandLine, FuzzTakesAMeshWithPairsOfOneKind) {
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.25 0.25 ";
   write("above.obj", triangle + "1\nf 1 2 3\n");
@@ -145,7 +146,7 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   const std::string scene = "scene start.obj end.obj --around 0 ";
   const json subjects =
       json_of(0, scene + "--leave-out boxes --bound pair,scene,100 --export pairs")["subjects"];
-  EXPECT_EQ(subjects.size(), 4);  // wang with three bounds; basic, which uses no bound, once
+  EXPECT_EQ(subjects.size(), 4);  // wang is asked with three bounds; basic, which uses no bound, only once
   for (const char* name : {"basic", "wang", "wang@100"})
     EXPECT_EQ(subjects[name]["vt"]["collisions"], 3) << name;
   expect_refused(scene + "--export pairs", {"pairs.vt: exists already"});
@@ -252,7 +253,7 @@ struct Shown {
   const char* what;
   const char* subject;  ///< a plug-in with options, or a built-in subject
   int code;
-  const char* fails_on = "";  ///< a value of --fail-on with which the code is 1
+  const char* fails_on = "";  ///< a value of --fail-on with which the exit code is 1
   const char* environment = "NEARMISS_ONE_IN=10";
   const char* options = "";
   bool only_replayed = false;
@@ -260,7 +261,8 @@ struct Shown {
 
 class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown> {
  protected:
-  /// Writes 43 queries to q.vt. Most plug-ins that misbehave do so for only one query in NEARMISS_ONE_IN.
+  /// Writes 43 queries to q.vt. Most of the plug-ins that misbehave do this only for one query out of
+  /// NEARMISS_ONE_IN queries.
   void SetUp() override {
     const std::string late = "0.95 0.01 1  0 0 0  1 0 0  0 1 0   0.95 0.01 -2  0 0 0  1 0 0  0 1 0\n";
     ASSERT_EQ(run("family uniform --kind vt --count 40").code, 0);

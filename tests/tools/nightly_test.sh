@@ -87,7 +87,7 @@ expect "expected that the oldest was first seen in the second night, at $began, 
 # If --subject has root parity, the night treats it like any other subject, and runs no separate campaign.
 night 0 --subject wang,parity
 expect "expected no sample for root parity" test ! -e "$folder/the nights/last/parity.db"
-# With --baseline 1, the baseline is only the night before.
+# With --baseline 1, the baseline consists only of the night before the new one.
 night 1 --subject wang,basic --baseline 1
 expect_said '^not in the baseline: basic$'
 # If a subject sometimes gives no answer, only the first night raises an alarm for this. A later
@@ -119,8 +119,8 @@ expect_said "found --subject 'wang,./none.so', expected CCDs with different name
 night 2 --subject wang --results /proc/none
 expect_said "found --results '/proc/none', expected a folder that can be made"
 expect "expected no night of a CCD that is none" test "$(ls "$folder/the nights")" = "$before"
-# The baseline counts a night and its copy once. The script frees the disk space that a killed night has
-# reserved, and --keep does not count the killed night.
+# The baseline counts a night and the copy of this night as one night. The script frees the disk
+# space that a killed night has reserved, and --keep does not count the killed night.
 cp -r "$folder/the nights/last/" "$folder/the nights/2001-01-01T000000Z copy"
 mkdir "$folder/the nights/2002-01-01T000000Z"
 touch "$folder/the nights/2002-01-01T000000Z/.reserve"

@@ -158,7 +158,8 @@ TEST_F(SeparationOption, OracleSaysWhenTheDistanceFallsToIt) {
 }
 
 TEST_F(SeparationOption, OracleSaysYesToADistanceOfExactlyIt) {
-  for (const std::string method : {"filtered", "exact", "certificate", "all"})  // the distance falls to 1
+  // The distance in miss.vt falls to exactly 1.
+  for (const std::string method : {"filtered", "exact", "certificate", "all"})
     EXPECT_EQ(run("oracle --kind vt --toi --separation 1 miss.vt --method " + method).out,
               "1 0x1p+0 0x1p+0\n")
         << method;
@@ -348,7 +349,8 @@ class Convert : public CommandLine {
     expect_code(0, "convert " + path + " -o again");
     std::string all;
     for (const char* kind : {"vt", "ee", "vv", "ve"}) all += read(std::string("again/queries.") + kind);
-    // The rational numbers of a CSV file have no -0. As a coordinate, -0 means the same as 0.
+    // The rational numbers of a CSV file cannot express -0. This changes no query, because a coordinate -0
+    // means the same as 0.
     return std::regex_replace(all, std::regex("-0x0p"), "0x0p");
   }
 };

@@ -126,8 +126,9 @@ process_of() {
   found=$(grep -lsz "^$results/shard-$1.db$" /proc/[0-9]*/cmdline) && basename "${found%/cmdline}"
 }
 saved() { { "$nearmiss" report "$results/shard-$1.db" -o "$folder/peek" || (($? == 1)); } | grep wang; }
-# Whether the first and the third task have saved something. Stops their processes, so that neither can end,
-# and lets both go on if either has saved nothing.
+# Whether both the first and the third task have saved something. Stops the processes of both
+# tasks, so that neither task can end. If one of the tasks has saved nothing, lets both processes
+# go on.
 both_saved() {
   first=$(process_of 0) && third=$(process_of 2) && kill -STOP "$first" "$third" || return 1
   if saved 0 && saved 2; then return; fi

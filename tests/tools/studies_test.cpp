@@ -222,8 +222,8 @@ TEST_F(Paper, AReportShowsTheClaims) {
               HasSubstr("the verdict 'maybe'"));
 }
 
-// The table in ccd/README.md has a row for each claim of the paper that nearmiss measures, with the claim's
-// words.
+// The table in ccd/README.md has a row for each claim of the paper that nearmiss measures. The row quotes the
+// words of the claim.
 TEST_F(Paper, EachClaimIsInTheTable) {
   std::ifstream file(std::filesystem::path(NEARMISS_README).parent_path() / "ccd/README.md");
   const std::string readme((std::istreambuf_iterator<char>(file)), {});

@@ -78,8 +78,8 @@ TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
   const Output output = run("oracle --kind vt --distance q.vt", before);
   EXPECT_EQ(output.error, says);
   EXPECT_EQ(output.out, run("oracle --kind vt --distance q.vt").out);
-  // nearmiss also sets rounding to nearest with subnormals in the threads of a campaign, and in the processes
-  // of its plug-ins.
+  // nearmiss also corrects the arithmetic, to rounding to nearest with subnormals, in the threads of a
+  // campaign and in the processes of the campaign's plug-ins.
   const auto positives = [&](const std::string& preload) {
     const json subjects =
         json_of(1,
@@ -249,7 +249,8 @@ TEST_F(CommandLine, AnInterruptEndsACommandWhoseOutputHasNoReader) {
   Background replay(file(""), "replay hit.vt --subject wang --db a.db --json unread");
   ASSERT_TRUE(replay.wait_until([&] { return !read("out.txt").empty(); })) << read("error.txt");
   replay.send(SIGTERM);
-  const int reader = open(file("unread").c_str(), O_RDONLY | O_NONBLOCK);  // lets a waiting command go on
+  // If the command still waits for a reader, this call lets the command go on.
+  const int reader = open(file("unread").c_str(), O_RDONLY | O_NONBLOCK);
   (void)replay.wait_until([] { return false; });
   close(reader);
   EXPECT_EQ(replay.code(), 130) << read("error.txt");

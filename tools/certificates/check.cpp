@@ -8,7 +8,8 @@
 #include <valarray>
 
 using Json = nlohmann::json;
-// The JSON library looks for this function in the namespace of mpq_class, also to read arrays of fractions.
+// The JSON library looks for this function in the namespace of mpq_class. The library calls the function to
+// read fractions, including those in arrays.
 static void from_json(const Json& from, mpq_class& to);
 
 namespace certificates {
@@ -27,7 +28,8 @@ double exact_double(const mpq_class& value) {
   return same;
 }
 
-/// Removes characters from the front of `rest`, as long as they are in `characters`, and returns them.
+/// Removes characters from the front of `rest`, as long as they are in `characters`, and returns the removed
+/// characters.
 std::string_view take(std::string_view& rest, std::string_view characters) {
   const std::string_view taken = rest.substr(0, rest.find_first_not_of(characters));
   rest.remove_prefix(taken.size());

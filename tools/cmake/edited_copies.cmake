@@ -24,7 +24,7 @@ endif()
 
 # Reads a list of edits. Sets `rows` to a table with {NAME, ABOUT, GROUP} of each edit, and `places` to the
 # number of places. A place is a text that an edit replaces. For each place N, sets place_N_edit to the number
-# of its edit, and place_N_name, _file, _nth, _of, _before and _after to what the list says.
+# of its edit, and place_N_name, _file, _nth, _of, _before and _after to what the list says about the place.
 macro(nearmiss_read_edits list)
   file(READ ${list} unread)
   set(rows "")

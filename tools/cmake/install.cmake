@@ -4,9 +4,9 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers are installed in include/nearmiss, and those of the templates in include/nearmiss/ccd, without
-# further folders. Installed headers include "nearmiss/ccd/query.hpp" in place of "ccd/query/query.hpp",
-# because the compiler might look for the latter in a user's folder ccd.
+# Headers are installed in include/nearmiss, except the headers of the templates, which are installed in
+# include/nearmiss/ccd, without further folders. Installed headers include "nearmiss/ccd/query.hpp" in place
+# of "ccd/query/query.hpp", because the compiler might look for the latter in a user's folder ccd.
 set(query arithmetic error kind query scalar)
 set(wang advance basic cubic motion pair_bound plane_culling proximity quadratic tolerances ve_culling verdict
   vertex_edge vertex_vertex wang wang_time within)

@@ -39,14 +39,15 @@ struct BenchOptions {
   PluginLimitOptions limits;
   SeparationOption separation;
   std::vector<std::string> families{"uniform", "uniform-end", "uniform-slow"};
-  std::vector<std::string> kinds;  ///< kinds of the random queries; if empty, all that a family has
+  std::vector<std::string> kinds;  ///< the kinds of the random queries; if empty, all kinds that a family has
   std::uint64_t queries = 20000;
   int runs = 31;
   bool judge = false;
   JsonOutput json;
   FailOnOption fail_on;
   std::filesystem::path history;
-  std::vector<std::filesystem::path> compared;  ///< the histories before and after a change, or none
+  /// The two histories to compare, from before and after a change; empty without --compare.
+  std::vector<std::filesystem::path> compared;
 };
 
 struct Input {
@@ -111,7 +112,8 @@ double median_ratio(const RunTimes& times, const RunTimes& first) {
   return median(ratios);
 }
 
-/// The times for all kinds together. Each kind is weighted by its number of queries.
+/// The subjects' times for the queries of all kinds together. The time for each kind is weighted by the
+/// number of queries of this kind.
 std::vector<Measured> together(const std::vector<std::vector<Measured>>& by_kind,
                                const std::vector<double>& weights) {
   const std::size_t runs = by_kind.front().front().times.size();
@@ -151,7 +153,7 @@ void expect_room(const BenchOptions& options, const std::vector<Family>& familie
   isolation::expect_memory(fmt::format("--queries {}", options.queries), bytes + most);
 }
 
-/// Calls expect_separations() for the kinds of those queries that have a separation.
+/// Finds the kinds of all queries that have a separation, and calls expect_separations() for these kinds.
 void expect_separations_of(const std::vector<Input>& inputs, const std::vector<Family>& families,
                            const BenchOptions& options, const Subjects& subjects) {
   std::set<Kind> separated;
@@ -188,7 +190,8 @@ void print_rows(std::FILE* out, const Subjects& subjects, const Input& input, st
 struct Results {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   BenchRun run{.about = environment(), .times = {}};
-  Statistics answered;  ///< counts queries and faults and, if answers are judged, collisions and misses
+  /// Each subject's numbers of queries and faults and, if answers are judged, of collisions and misses.
+  Statistics answered;
 };
 
 void add_rows(Results& results, const Subjects& subjects, const Input& input, Kind kind,
@@ -219,8 +222,8 @@ void add_rows(Results& results, const Subjects& subjects, const Input& input, Ki
   }
 }
 
-/// Times the subjects on one input: on each of its kinds, and on all kinds together. Prints the times to
-/// `out`, and adds them to `results`.
+/// Times the subjects on the queries of one input: for each kind of query separately, and for all kinds
+/// together. Prints the times to `out`, and adds them to `results`.
 void time_input(const Subjects& subjects, const Input& input, const BenchOptions& options, const Stop& stop,
                 std::FILE* out, Results& results) {
   std::vector<std::vector<Measured>> by_kind;
@@ -267,9 +270,10 @@ int run(const BenchOptions& options) {
   try {
     const auto time = [&](const Input& input) { time_input(subjects, input, options, stop, out, results); };
     std::ranges::for_each(files, time);
-    for (const Family& family : families)  // one at a time, because their queries need much memory
+    // Makes the queries of one family at a time, because the queries of all families need much memory.
+    for (const Family& family : families)
       time(family_input(family, options.queries, options.separation, stop));
-  } catch (const Stopped&) {  // still reports the inputs that were timed before the stop
+  } catch (const Stopped&) {  // the code below still reports the inputs that were timed before the stop
   }
   if (!options.history.empty() && !stop.is_requested()) {
     results.run.about.merge(run_info("bench"));

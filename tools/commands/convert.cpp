@@ -40,7 +40,7 @@ fs::path in_folder(fs::path file) {
   return file;
 }
 
-/// New files in a folder. The files get their names only when all of them are complete.
+/// New files in a folder. Each file keeps a temporary name until all files are complete.
 class NewFiles {
  public:
   explicit NewFiles(fs::path folder) : folder_(std::move(folder)) {}
@@ -81,16 +81,18 @@ std::pair<fs::path, std::string> converted(const std::string& format, const Case
 int run(const ConvertOptions& options) {
   NewFiles files(options.folder);
   std::uint64_t count = 0, wrong = 0;
-  std::map<fs::path, std::vector<bool>> truths;  // for "json": the truths of the queries in each file
+  // For the format "json": the truths of the queries in each file.
+  std::map<fs::path, std::vector<bool>> truths;
   for (const fs::path& path : options.paths)
     read_cases(path, [&](Case&& each) {
       ++count;
-      // If the smallest distance is exactly the separation, earliest_time() gives a time, but collides()
-      // answers no.
+      // Asks earliest_time() in place of collides(): if the smallest distance is exactly the separation,
+      // earliest_time() gives a time, but collides() answers no.
       const bool truth = earliest_time(each.query).has_value();
       if (each.truth && *each.truth != truth && each.query.separation == 0) ++wrong;
       if (options.format == "case") {
-        // Writes each case file at once, because the system limits the number of open files.
+        // Writes each case file as soon as the case is read, because the system limits the number of files
+        // that may be open at the same time.
         each.truth = truth;
         const fs::path file = in_folder(options.folder / fmt::format("{:06}.case", count));
         expect_new(file);

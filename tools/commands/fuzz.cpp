@@ -44,7 +44,8 @@ std::string list_of_families() {
   return lines;
 }
 
-/// Adds the options for the campaign's length, its shard, and the files of its results.
+/// Adds the options that set the campaign's length, its shard, and the files to which its results are
+/// written.
 void add_common(CLI::App& command, CampaignOptions& options) {
   auto* limit = command.add_option_group("limit", "Length");
   auto* cases = add_count_option(*limit, "--cases", options.cases, 1, most_queries,
@@ -104,7 +105,8 @@ std::vector<std::filesystem::file_time_type> written(const std::vector<std::file
   return times;
 }
 
-/// Waits until a file has changed since `before`, and all files exist and no longer change.
+/// `before` has the times at which the files had last been written. Waits until one of these times has
+/// changed, all files exist, and none of the files is still changing.
 void wait_for_a_change(const std::vector<std::filesystem::path>& files,
                        const std::vector<std::filesystem::file_time_type>& before) {
   constexpr std::chrono::milliseconds pause{300};
@@ -124,7 +126,8 @@ void watch(const CampaignOptions& options, int& exit_code) {
     try {
       exit_code = record_campaign(options);
       if (exit_code == exit_interrupted) return;
-    } catch (const Error& error) {  // such as a plug-in that cannot be loaded, which the user may repair
+    } catch (const Error& error) {
+      // Goes on watching, because the user may repair the error, such as a plug-in that cannot be loaded.
       fmt::print(stderr, "nearmiss: {}\n", printable(error.what()));
     }
     fmt::print(stderr, "watching {}; ^C ends this\n", fmt::join(options.trial.subjects, ", "));

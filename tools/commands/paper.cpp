@@ -42,8 +42,8 @@ std::string number(double value, const char* format) {
 
 ordered_json or_null(double value) { return std::isfinite(value) ? ordered_json(value) : ordered_json(); }
 
-/// The distance bound that follows from the smallest possible tolerances. Its unit is B, the size of the
-/// pair.
+/// The bound on the distance of false positives that follows from the smallest possible tolerances. The unit
+/// of this bound is B, the size of the pair.
 double bound_over_B(const ToleranceRow& row) { return row.tight_bound * std::exp2(row.exponent / 4.0); }
 
 ordered_json json_of(const std::vector<RoundingConstant>& constants,
@@ -237,13 +237,15 @@ int run(const PaperOptions& options) {
   options.json.expect_writable();
   const Stop stop(interrupted());
   Progress progress(options.quiet);
-  std::map<std::string_view, ordered_json> known;  // results by command, because claims share commands
+  // The results of each command that has run; several claims may need the results of the same command.
+  std::map<std::string_view, ordered_json> known;
   ordered_json json{{"run", run_info("paper")}, {"claims", ordered_json::array()}};
   json["run"].update(ordered_json(environment()));
   double done = 0;
   try {
     for (const Claim* claim : which) {
-      stop_on_signals();  // each command calls end_on_signals() when it is done
+      // Again for each claim, because each command of a claim calls end_on_signals() at its end.
+      stop_on_signals();
       progress.show(std::string(claim->name), done++ / static_cast<double>(which.size()));
       Results results;
       for (const std::string_view command : claim->commands) {
@@ -254,7 +256,7 @@ int run(const PaperOptions& options) {
       print(options.json.text(), *claim, measured);
       json["claims"].push_back(json_of(*claim, measured));
     }
-  } catch (const Stopped&) {  // still writes the claims that were measured
+  } catch (const Stopped&) {  // the code below still writes the claims that were measured before the stop
   }
   end_on_signals();
   options.json.write(json);

@@ -96,7 +96,7 @@ std::string output_of(const std::string& command) {
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(exit_bad_input);
   }
-  setpgid(process, process);  // the child does the same, in case it runs first
+  setpgid(process, process);  // the child sets its process group, too, in case it runs before its parent
   close(pipe[1]);
   std::string text;
   std::vector<char> buffer(most_bytes);
@@ -113,7 +113,8 @@ std::string output_of(const std::string& command) {
     if (interrupted()) {
       const auto now = std::chrono::steady_clock::now();
       kill_at = std::min(kill_at, now + std::chrono::seconds(1));
-      for (const pid_t each : {-process, process})  // the command may have left its process group
+      // Also signals the process itself, because it may have left its process group.
+      for (const pid_t each : {-process, process})
         if (!has_ended) kill(each, now < kill_at ? SIGTERM : SIGKILL);
       if (now > kill_at + std::chrono::milliseconds(500)) break;
     }
@@ -126,13 +127,13 @@ std::string output_of(const std::string& command) {
     if (has_ended && (!has_more || ++reads_after_the_end > most_reads_after_the_end)) break;
     if (!has_ended) has_ended = waitpid(process, nullptr, WNOHANG) == process;
   }
-  if (interrupted()) kill(-process, SIGKILL);  // ends processes that ignored SIGTERM
+  if (interrupted()) kill(-process, SIGKILL);  // ends the command's processes that ignored SIGTERM
   close(pipe[0]);
   return text;
 }
 
-/// Removes a number, and the text `then` after it, from the beginning of a text. Returns false if either is
-/// missing.
+/// Removes a number, and the text `then` after it, from the beginning of a text. Returns false if the number
+/// or `then` is missing.
 template <class Number>
 bool take(std::string_view& text, Number& number, std::string_view then) {
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -185,8 +186,9 @@ Hunt hunt_with_libfuzzer(const PowerOptions& options, const std::string& subject
   return soonest;
 }
 
-/// The time and the number of cases until a hunt found a failure: "0.12 s  12,345". After these numbers, "+"
-/// marks a late time, and "*" a refuted bound; a miss has no mark. If nothing was found, returns "-".
+/// The time that a hunt took, and the number of cases that it decided, until it found a failure:
+/// "0.12 s  12,345". After these numbers, "+" marks a late time, and "*" a refuted bound; a miss has no mark.
+/// If the hunt found no failure, returns "-".
 std::string cell(const Hunt& hunt) {
   if (!hunt.failure) return "-";
   const std::string_view mark = *hunt.failure == name(Finding::What::refuted_bound) ? "*"
@@ -222,7 +224,7 @@ std::string table(const std::vector<Hunt>& results, const std::vector<std::strin
 }
 
 int run(const PowerOptions& options) {
-  (void)parse_duration(options.time, "--time");  // refuses a bad time before any work
+  (void)parse_duration(options.time, "--time");  // refuses a bad --time before the command does any work
   std::vector<Hunt> results;
   const std::filesystem::path stored = options.json.file();
   if (!stored.empty() && std::filesystem::exists(stored)) results = load_hunts(stored);

@@ -31,12 +31,13 @@ struct QuestionsOptions {
 
 constexpr const char* usual_time = "20s";
 
-/// The differences between the two commands: their texts, and whether they ask families at rest.
+/// The differences between the two commands: their texts, and whether a command asks queries of the families
+/// whose primitives are at rest.
 struct Command {
   const char *name, *help;
   const char* function;   ///< the function of the plug-in interface that answers the question
   const char* of_file;    ///< what the command prints for each query of a file
-  const char* exit_code;  ///< when the exit code is 1
+  const char* exit_code;  ///< the line of --help that says when the exit code is 1
   bool asks_families_at_rest;
 };
 
@@ -94,7 +95,8 @@ template <class Question>
 int run(const QuestionsOptions& options, const Command& of) {
   const Stop at_signals(interrupted());
   isolation::PluginLimits limits = options.limits.limits();
-  limits.stop = &at_signals;  // a signal ends the wait for an answer; the time limit of the command does not
+  // A signal ends the wait for a plug-in's answer; the time limit of the command does not.
+  limits.stop = &at_signals;
   const Subjects subjects = make_subjects(options.subjects, limits);
   QuestionPlan plan{.kinds = kinds_of(options),
                     .search = !options.no_search,
@@ -144,7 +146,8 @@ void add(CLI::App& app, int& exit_code, const Command& of) {
   auto options = std::make_shared<QuestionsOptions>();
   auto* command = app.add_subcommand(of.name, of.help);
   add_subject_option(*command, options->subjects);
-  command->get_option("--subject")->required()->allow_extra_args(false);  // the next argument may be FILE
+  // Takes only one argument, because the argument after it may be FILE.
+  command->get_option("--subject")->required()->allow_extra_args(false);
   auto* file = command->add_option(
       "FILE", options->file,
       fmt::format("Ask about the queries of a file instead, and print for each: {}", of.of_file));

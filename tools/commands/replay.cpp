@@ -65,8 +65,8 @@ struct Pass {
   std::function<void(const CaseSink&)> read;
 };
 
-/// The passes that judge recorded answers, and ask no subject. If a query was answered in different ways, the
-/// answers are in different passes.
+/// The passes that judge the answers in recordings, and ask no subject. If a query has several different
+/// answers in the recordings, these answers are in different passes.
 std::vector<Pass> passes_as_answered(const ReplayOptions& options, std::set<Kind>& seen) {
   std::vector<RecordedAnswer> answers;
   for (const fs::path& path : options.paths) {
@@ -94,7 +94,8 @@ std::vector<Pass> passes_as_answered(const ReplayOptions& options, std::set<Kind
 Pass pass_of_cases(const ReplayOptions& options, std::set<Kind>& seen, const Stop& stop) {
   Pass pass;
   pass.subjects = options.trial.make_subjects(stop, parse_bound(options.bound));
-  for (const fs::path& path : options.paths)  // checks all files before the command writes any
+  // Reads all case files once, so that the command refuses a bad case before it writes a file.
+  for (const fs::path& path : options.paths)
     read_cases(path, [&](const Case& each) { seen.insert(each.query.kind); });
   pass.read = [&options](const CaseSink& sink) {
     for (const fs::path& path : options.paths) read_cases(path, sink);
@@ -105,7 +106,8 @@ Pass pass_of_cases(const ReplayOptions& options, std::set<Kind>& seen, const Sto
 struct Replayed {
   std::uint64_t cases = 0;
   Query last = {};
-  std::map<Kind, std::uint64_t> with_separation = {};  ///< number of cases with a separation, by their kind
+  /// For each kind, the number of its cases that have a separation.
+  std::map<Kind, std::uint64_t> with_separation = {};
 };
 
 /// Lets the subjects of a pass decide the pass's cases, and adds the results to `record`.
@@ -117,7 +119,7 @@ void hold(const ReplayOptions& options, const Pass& pass, const Stop& stop, Reco
   TrialStream stream(trials);
   const auto add = [&](const Case& each) {
     stop.check();
-    // A recorded truth does not hold for another separation.
+    // If --separation changes the query, the case's recorded truth does not hold for the changed query.
     const Query query = options.separation.apply(each.query);
     stream.add(family_of(each.name), query, query == each.query ? each.truth : std::nullopt,
                [name = each.name] { return printable(name); });
@@ -130,7 +132,7 @@ void hold(const ReplayOptions& options, const Pass& pass, const Stop& stop, Reco
   };
   try {
     pass.read(add);
-  } catch (const Stopped&) {  // still reports the results so far
+  } catch (const Stopped&) {  // the command still reports the results of the cases before the stop
   }
   stream.finish();
   trials.finish([&] {

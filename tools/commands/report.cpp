@@ -104,7 +104,7 @@ void expect_to_fit(const ReportOptions& options) {
       }
 }
 
-/// The files that the command reads or writes, except that of --junit.
+/// The files that the command reads or writes, except the file of --junit.
 std::vector<OptionFile> other_files(const ReportOptions& options) {
   std::vector<OptionFile> files{{options.power, "--power"},
                                 {options.audit, "--audit"},

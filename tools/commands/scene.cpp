@@ -40,7 +40,8 @@ struct SceneOptions {
   std::string leave_out = "all", thickness;
   SeparationOption separation;
   bool list = false, weld = false, plan_only = false, verify_plan = false;
-  std::uint64_t around = 10000;  ///< number of queries to ask around the scene's pairs
+  /// The number of random queries close to the scene's pairs that the subjects are asked.
+  std::uint64_t around = 10000;
   fs::path export_to;
   RecordOptions record;
 };
@@ -55,7 +56,7 @@ void list_built_in_scenes(std::FILE* out) {
                scene.largest, scene.description);
 }
 
-/// Writes files for nearmiss replay: FILE.vt and FILE.ee, with a query on each line.
+/// Writes the files FILE.vt and FILE.ee, which nearmiss replay can read. Each line of a file has one query.
 class Export {
  public:
   explicit Export(const fs::path& file) {
@@ -72,7 +73,7 @@ class Export {
     };
     follow_plan(Plan(mesh, leave_out, jobs, is_over), write, {}, is_over);
   }
-  /// Gives each file its name, unless the file is empty. Throws Error if a file could not be written.
+  /// Gives each file its final name, unless the file is empty. Throws Error if a file could not be written.
   void finish() {
     for (auto& [kind, file] : files_) {
       file.close();
@@ -105,7 +106,8 @@ RunInfo info_of(const SceneOptions& options, const SceneSubjects& all) {
 }
 
 struct Held {
-  std::string scene;  ///< the text of describe(); "" if a stop came before the first step
+  /// The text that describe() returns; "" if the command was stopped before the first step.
+  std::string scene;
   Verification verification;
   std::chrono::duration<double> asking{};  ///< time spent on asking the subjects
 };
@@ -128,7 +130,8 @@ Held hold_trials(const SceneOptions& options, const Scene& scene, const Subjects
   Held held;
   Progress progress(options.record.quiet);
   const auto begun = std::chrono::steady_clock::now();
-  const double asking = options.verify_plan ? 0.03 : 1;  // share of a step's time; verifying takes the rest
+  // The estimated fraction of a step's time in which subjects are asked. The rest is for verifying the plan.
+  const double asking = options.verify_plan ? 0.03 : 1;
   const auto show = [&](const char* what, std::size_t step, double part) {
     if (!progress.due()) return;
     const double done = (static_cast<double>(step) + part) / static_cast<double>(scene.steps());
@@ -149,7 +152,7 @@ Held hold_trials(const SceneOptions& options, const Scene& scene, const Subjects
     trial.hold(step, mesh, [&](double part) { show("asking", step, asking * part); });
     held.asking += std::chrono::steady_clock::now() - start;
     if (!options.verify_plan) return;
-    record.save_now();  // before verifying, which takes long
+    record.save_now();  // saves the results before the plan is verified, because verifying takes long
     held.verification.merge(verify_plan(mesh, subjects, options.trial.jobs, [&](double part) {
       show("verifying", step, asking + (1 - asking) * part);
       return !stop.is_due();
@@ -157,7 +160,7 @@ Held hold_trials(const SceneOptions& options, const Scene& scene, const Subjects
   };
   try {
     for_each_step(scene, is_over, hold);
-  } catch (const Stopped&) {  // still reports the results so far
+  } catch (const Stopped&) {  // the command still reports the results of the steps before the stop
   }
   trials.finish([&] {
     if (progress.due()) progress.show(shrinking_line(trials.to_shrink()));
@@ -211,7 +214,8 @@ std::string hunt_around(const SceneOptions& options, const Family& family, const
   const CampaignProgress reached = run_campaign(
       plan, subjects,
       [&](TrialResult&& result, const CampaignProgress& now) {
-        std::map<std::size_t, Finding> shrunk;  // keys: the findings' numbers in the command's record
+        // The key of each finding is its number in the command's record.
+        std::map<std::size_t, Finding> shrunk;
         for (auto& [number, finding] : result.shrunk) shrunk[before + number] = std::move(finding);
         result.shrunk = std::move(shrunk);
         record.add(std::move(result));
@@ -247,7 +251,8 @@ int run(SceneOptions options) {
   if (options.plan_only) options.trial.subjects = {h > 0 ? "exact" : "wang"};
   options.record.summary = !options.plan_only;
   const Stop stop(interrupted());
-  (void)options.trial.make_subjects(stop);  // refuses unknown names before it reads meshes
+  // Refuses unknown names of subjects before the command reads meshes.
+  (void)options.trial.make_subjects(stop);
   Scene scene = open_scene(options.scene);
   if (options.weld) scene = welded(std::move(scene));
   if (h > 0) scene = with_separation(std::move(scene), h);
@@ -271,8 +276,9 @@ int run(SceneOptions options) {
   std::string few = options.plan_only ? "" : what_few_collisions_show(record.statistics());
   std::string longer;
   if (!few.empty() && !stop.is_requested()) {
-    const bool is_own_bound =
-        options.bounds == SceneOptions().bounds;  // another bound may be too small for queries around pairs
+    // Whether each subject uses each pair's own bound. Any other bound may be too small for the queries around
+    // the pairs.
+    const bool is_own_bound = options.bounds == SceneOptions().bounds;
     try {
       const auto family = family_around(options, scene);
       if (family) longer = longer_hunt(options);

@@ -29,7 +29,8 @@ struct ShrinkOptions {
   SeparationOption separation;
 };
 
-/// The only case in the file, with the value of --separation if that option is given.
+/// The only case in the file. If the option --separation is given, its value replaces the separation of the
+/// case.
 Case read_one(const ShrinkOptions& options) {
   std::vector<Case> cases;
   read_cases(options.in, [&](Case&& each) { cases.push_back(std::move(each)); });

@@ -95,7 +95,7 @@ class Frames {
   fs::path folder_;
 };
 
-/// The mesh after the last step, with tangled primitives marked.
+/// A picture of the mesh after the last step, in which tangled primitives are marked.
 ScenePicture last_picture(const Simulation& simulation, const std::string& family,
                           const std::string& subject) {
   Marks marks;
@@ -136,7 +136,7 @@ void simulate(const SimulateOptions& options, Simulation simulation, const Subje
       frames.add(step + 1, simulation.motion());
     }
     record.add(last_picture(simulation, scene_family(named), name));
-  } catch (const Stopped&) {  // still reports the steps so far
+  } catch (const Stopped&) {  // the command still reports the steps before the stop
   }
   trials.finish();
 }
@@ -146,7 +146,8 @@ int run(const SimulateOptions& options) {
     throw Error("--versions: found simulations, in which each subject is asked other queries");
   if (std::error_code error; !options.frames.empty() && fs::exists(options.frames, error))
     throw Error(fmt::format("{}: exists already, expected a new folder", options.frames.string()));
-  const Simulation simulation = options.simulation.simulation();  // refuses bad options before any work
+  // Refuses bad options before the command does any work.
+  const Simulation simulation = options.simulation.simulation();
   const Stop stop(interrupted());
   Subjects subjects = options.trial.make_subjects(stop);
   if (!options.frames.empty()) expect_folders(subjects);

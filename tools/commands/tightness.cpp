@@ -25,7 +25,9 @@ struct TightnessOptions {
   std::vector<std::string> names{"all"}, values;
   bool among_vertices = false;
   std::string time;
-  CampaignOptions campaign;  ///< with --values; without --values, only its seed, jobs and record count
+  /// The options of the campaign with --values; without --values, the command uses only the members `seed`,
+  /// `jobs` and `record`.
+  CampaignOptions campaign;
 };
 
 constexpr const char* usual_time = "60s";

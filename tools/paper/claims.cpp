@@ -98,8 +98,8 @@ BothKinds pairs_at(double speed, const Stop& stop) {
           count_random_pairs(Kind::edge_edge, speed, some_pairs, 1, stop)};
 }
 
-/// The largest ratio of run times for which the paper's claim of a small overhead holds. It leaves room for
-/// the noise of a busy machine.
+/// The largest ratio of run times for which the paper's claim of a small overhead holds. This largest ratio
+/// leaves room for the noise of a busy machine.
 constexpr double small_overhead = 1.1;
 
 std::string in_words(const Ratios& ratios) {

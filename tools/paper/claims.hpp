@@ -12,7 +12,7 @@
 
 namespace nearmiss::tools::paper {
 
-/// Whether a claim holds.
+/// Whether our measurements confirm a claim of the paper.
 enum class Judgement {
   holds,
   holds_with_condition,
@@ -27,7 +27,9 @@ std::string_view name(Judgement judgement);
 std::optional<Judgement> judgement_named(std::string_view name);
 
 struct Measured {
-  std::string text;  ///< what was measured, with all figures, and the condition of holds_with_condition
+  /// What was measured, with all figures; for holds_with_condition, also the condition under which the claim
+  /// holds.
+  std::string text;
   Judgement judgement = Judgement::not_measured;
 };
 
@@ -43,7 +45,7 @@ struct Commands : std::vector<std::string_view> {
 
 struct Claim {
   std::string_view name;     ///< the claim's name on the command line, which no other claim has
-  std::string_view section;  ///< the section of the paper
+  std::string_view section;  ///< the section of the paper that makes the claim
   std::string_view says;
   Commands commands = {};  ///< the commands that give `measure` its results, if it needs any
   Measured (*measure)(const Results& results, const Stop& stop) = nullptr;

@@ -17,8 +17,8 @@ inline std::atomic<bool> is_ending = false;
 /// The thread in which the interpreter exits. Functions that Python calls at its exit may still make calls
 /// in this thread.
 inline std::thread::id ending_thread;
-/// The number of calls that are under way, and their threads. `threads_of_calls` may be used only with
-/// Python's lock.
+/// The number of calls of this package's functions that are under way, and the threads that make these calls.
+/// `threads_of_calls` may be used only with Python's lock.
 inline std::atomic<int> running = 0;
 inline std::multiset<unsigned long> threads_of_calls;
 

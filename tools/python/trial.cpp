@@ -78,9 +78,9 @@ Subjects subjects_of(const py::list& of, const Stop& stop) {
   return subjects;
 }
 
-/// The kinds that are asked if no families are named. If some subjects are functions, these are all kinds
-/// that at least one function decides. Otherwise, these are the kinds that a campaign with these subjects
-/// asks.
+/// The kinds of queries that a trial asks if the caller names no families. If some subjects are functions,
+/// these are all kinds that at least one function decides. Otherwise, these are the kinds that a campaign
+/// with these subjects asks.
 std::vector<Kind> kinds_of(const Subjects& subjects) {
   const auto is_function = [](const auto& each) {
     return dynamic_cast<const FunctionSubject*>(each.get()) != nullptr;
@@ -94,7 +94,8 @@ std::vector<Kind> kinds_of(const Subjects& subjects) {
   return asked;
 }
 
-/// The named families; without names, all families of the kinds that are asked.
+/// The families that the caller names. If the caller names none, returns all families of the kinds that the
+/// trial asks.
 std::vector<Family> families_of(const std::vector<std::string>& names, const Subjects& subjects) {
   if (names.empty()) return families_asked({}, kinds_of(subjects));
   return families_asked(names, kinds);
@@ -156,8 +157,8 @@ void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint6
   }
 }
 
-/// The largest ratio of a false positive's distance to its bound. If a bound is 0, `counts` has the largest
-/// double as the ratio; this function then returns infinity.
+/// The largest ratio of a false positive's distance to the bound on this distance. If a bound is 0, `counts`
+/// has the largest double as the ratio; this function then returns infinity.
 double farthest(const Counts& counts) {
   const double ratio = counts.max_ratio();
   return ratio == std::numeric_limits<double>::max() ? std::numeric_limits<double>::infinity() : ratio;
@@ -236,7 +237,7 @@ py::tuple hold(const py::list& of_subjects, const std::vector<std::string>& fami
     std::erase_if(result.findings, [](const Finding& each) { return is_only_shown(each.what); });
     shrink(result.findings, subjects, shrunk_of_each, stop);
   } catch (const Stopped&) {
-    end_silently();  // Stopped can only mean that the interpreter exits
+    end_silently();  // here, Stopped is thrown only when the interpreter exits
   }
   return py::make_tuple(counts_of(result.statistics), columns(result.findings));
 }

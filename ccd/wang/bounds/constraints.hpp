@@ -17,18 +17,18 @@ namespace nearmiss {
 /// all for B = 1. `Number` is any arithmetic type, such as a type of intervals.
 template <class Number>
 struct RoundingErrors {
-  Number area;       ///< of a component of N
-  Number height_vt;  ///< of the height test, for η <= B
+  Number area;       ///< the error of a component of N
+  Number height_vt;  ///< the error of the height test, for η <= B
   Number height_ee;
-  Number weight_vt;  ///< of the comparison of a weight with N·N
+  Number weight_vt;  ///< the error of the comparison of a weight with N·N
   Number weight_ee;
-  Number length2;    ///< VE: of the squared edge length
-  Number weight_ve;  ///< VE: of the comparison of a weight with the squared edge length
-  Number F;          ///< VE: of F_0ij
+  Number length2;    ///< VE: the error of the squared edge length
+  Number weight_ve;  ///< VE: the error of the comparison of a weight with the squared edge length
+  Number F;          ///< VE: the error of F_0ij
   Number residual;   ///< the most by which |F| exceeds μ between a root and the time that represents it
-  Number delta;      ///< VV: of the squared distance, all errors together
-  Number least_mu;   ///< the least μ with which no root is missed (Appendix B)
-  Number least_psi;  ///< the least ψ with which VE misses no time (Appendix C)
+  Number delta;      ///< VV: all errors of the squared distance together
+  Number least_mu;   ///< the least μ with which `solve_cubic` misses no root (Appendix B)
+  Number least_psi;  ///< the least ψ with which VE misses no time at which F_0ij <= 0 (Appendix C)
 };
 
 /// The bounds that the paper states (§4.2 to §4.5). An error for which the paper states no bound has the
@@ -41,10 +41,11 @@ RoundingErrors<Number> printed_errors(const Number& eps) {
           eps * 44, eps * 0,  eps * 0,  eps * 311, eps * 33492, e * e * 725};
 }
 
-/// The bounds of all errors, for rounding to nearest (u = ε/2) and every ε <= 2^-10. Gappa proves them
-/// (proven.hpp), except those of the solvers, which solver_errors.hpp, cubic.hpp and vertex_edge.hpp derive.
-/// They include what the paper omits: the rounding of the relative vectors themselves (§5), terms of second
-/// order in ε, and end points of edges that are within 2B but not within B.
+/// The bounds of all errors, for rounding to nearest (u = ε/2) and every ε <= 2^-10. Gappa proves these
+/// bounds (proven.hpp), except the bounds of the solvers' errors, which solver_errors.hpp, cubic.hpp and
+/// vertex_edge.hpp derive. The bounds include errors that the paper omits: the rounding of the relative
+/// vectors themselves (§5), terms of second order in ε, and end points of edges that are within 2B but not
+/// within B.
 template <class Number>
 constexpr RoundingErrors<Number> full_errors(const Number& eps, const Number& S, const Number& rho) {
   const Number u = eps / 2;

@@ -39,9 +39,10 @@ inline constexpr double F_ve_far_without_S = 70.22;  ///< F_0ij for any S, if F_
 inline constexpr double F_ve_of_S = 3.005;
 
 // vertex_vertex.hpp
-inline constexpr double squared_distance = 10.1;  ///< at a given time, for exact vectors
+inline constexpr double squared_distance = 10.1;  ///< the squared distance at a given time, for exact vectors
 inline constexpr double squared_distance_far = 34.31;
-inline constexpr double distance_of_vectors = 6.01;  ///< squared distance: from the vectors' rounding alone
+/// The part of the squared distance's error that comes from the rounding of the vectors.
+inline constexpr double distance_of_vectors = 6.01;
 inline constexpr double distance_of_vectors_far = 18.02;
 inline constexpr double dot = 4.02;    ///< x·v and v·v, for exact vectors
 inline constexpr double time = 11.87;  ///< -x·v / v·v for ‖v‖∞ = B, for exact vectors

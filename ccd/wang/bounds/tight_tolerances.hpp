@@ -17,7 +17,7 @@ inline constexpr int epsilon_exponent = 1 - std::numeric_limits<T>::digits;
 /// The tolerances for B = 1, in units of powers of e = ε^¼.
 struct ToleranceConstants {
   double mu;           ///< in units of ε
-  double tau, eta;     ///< in units of e² and e
+  double tau, eta;     ///< tau in units of e², eta in units of e
   double R, S;         ///< in units of e
   double lambda2, D2;  ///< in units of e²
   double psi, rho;     ///< in units of e²

@@ -10,7 +10,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The streams of random numbers.
+/// The streams of random numbers from which these scenes are made.
 enum : std::uint64_t { tumbling_motion = 301, flying_shapes, flying_places };
 
 struct Pose {

@@ -11,15 +11,16 @@ namespace nearmiss {
 
 namespace {
 
-/// The streams of random numbers.
+/// The streams of random numbers from which these scenes are made.
 enum : std::uint64_t { spikes_gaps = 101, spikes_waves, sheets_waves, points_places, points_waves };
 
 // --- spikes -----------------------------------------------------------------------------------------------
 
 constexpr int spike_sides = 12, spike_rings = 4;
 constexpr int spike_triangles = spike_sides * (2 * spike_rings - 1);
-constexpr double pitch = 10;  // the distance between spikes, so that each has 200 triangles of cloth
-constexpr double tip = 5;     // the height of a spike
+// The distance between neighbouring spikes; with it, each spike has 200 triangles of cloth.
+constexpr double pitch = 10;
+constexpr double tip = 5;  // the height of a spike
 
 /// The height of a spike at a distance from its axis. A spike is a cone with a round tip, and the cloth on it
 /// has the same shape.

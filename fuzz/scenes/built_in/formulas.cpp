@@ -46,7 +46,7 @@ double length(const Vector3<double>& a) { return std::sqrt(dot(a, a)); }
 
 Rotation::Rotation(const Vector3<double>& axis, double turns) {
   const CosSin angle = cos_sin(turns);
-  for (int i = 0; i < 3; ++i) {  // Rodrigues' formula: the images of the unit vectors
+  for (int i = 0; i < 3; ++i) {  // Rodrigues' formula gives the images of the three unit vectors
     const int j = (i + 1) % 3;
     const int k = (i + 2) % 3;
     auto& column = columns_[static_cast<std::size_t>(i)];

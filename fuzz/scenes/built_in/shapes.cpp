@@ -81,7 +81,8 @@ Mesh box(const std::array<int, 3>& edges) {
 
 Mesh ball(int squares) {
   Mesh mesh = box({squares, squares, squares});
-  const double radius = squares * 0.64;  // the circumference is about 4 squares, like that of the cube
+  // The circumference of the sphere is about 4 `squares`, like that of the cube.
+  const double radius = squares * 0.64;
   for (auto& p : mesh.points) p = p * (radius / length(p));
   return mesh;
 }

@@ -19,8 +19,8 @@ void add_polyline(Mesh& mesh, int first, int count);
 /// Adds the triangles of `part`; its points are those of `mesh` from number `first` on.
 void add_triangles(Mesh& mesh, const Mesh& part, int first);
 
-/// (squares + 1)² points in rows. `place` maps a point of the flat sheet to its position; x and y are
-/// measured from the centre, in edges.
+/// A square sheet with (squares + 1)² points in rows. `place` maps a point of the flat sheet to its position;
+/// x and y are measured from the centre, in edges.
 PointList sheet_points(int squares, const std::function<Vector3<double>(double x, double y)>& place);
 
 /// The surface of a box around the origin. For edges = {a, b, c}, its sides have a, b and c edges of length

@@ -10,7 +10,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The streams of random numbers.
+/// The streams of random numbers from which these scenes are made.
 enum : std::uint64_t { hair_places = 201, mat_waves };
 
 // --- knot -------------------------------------------------------------------------------------------------
@@ -40,8 +40,9 @@ class KnotLine {
     const double along = from_middle + knotted() / 2;
     const auto behind = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, along);
     const auto i = static_cast<std::size_t>(behind - lengths_.begin());
-    const double part =
-        (along - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);  // outside [0, 1] on the straight ends
+    // The place of the point on the segment from points_[i - 1] to points_[i]. On the straight ends of the
+    // knot, this number is outside [0, 1].
+    const double part = (along - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);
     return points_[i - 1] + part * (points_[i] - points_[i - 1]);
   }
 
@@ -99,7 +100,8 @@ Scene hair(int size) {
   Mesh primitives;
   for (int i = 0; i < hairs; ++i) add_polyline(primitives, i * (lines + 1), lines + 1);
   return scene_of_formula(31, std::move(primitives), [=](double frame) {
-    constexpr double golden = 0.3819660112501051;  // in turns; spreads points evenly over a disc
+    // The golden angle, in turns; it spreads points evenly over a disc.
+    constexpr double golden = 0.3819660112501051;
     const double widest = 0.56 * std::sqrt(static_cast<double>(hairs));
     const double turns = 0.2 + 0.12 / widest * frame;
     const double drawn = 0.25 + std::min(0.012, 0.1 / widest) * frame;
@@ -163,7 +165,8 @@ Scene mat(int size) {
   constexpr double tightest = 4;
   const int squares = nearest(std::sqrt(size / 6.0));
   const int length = nearest(size / (2.0 * squares));
-  const double outermost = std::sqrt(squares / 2.0 / tightest);  // distance from the axis when rolled up
+  // The distance of the outermost points from the axis after the mat is rolled up.
+  const double outermost = std::sqrt(squares / 2.0 / tightest);
   Mesh primitives;
   add_surface(primitives, 0, length + 1, squares + 1);
   return scene_of_formula(steps + 1, std::move(primitives), [=](double frame) {

@@ -1,4 +1,5 @@
-// The oracle as the CCD `exact`. Each query goes through the batch filter, as in a campaign.
+// The oracle as the CCD `exact`. The oracle decides each query with its batch filter first, as it does in a
+// campaign.
 #include <span>
 
 #include "fuzz/studies/environments/on_trial.hpp"

@@ -5,10 +5,10 @@
 
 namespace nearmiss::environments {
 
-/// Decides a query in the mode of arithmetic that the caller has set. May throw.
+/// Decides a query in the mode of arithmetic that the caller has set. This function may throw an exception.
 bool collides(const Query& query);
 
-/// The bound that the CCD claims on the distance of a false positive.
+/// The upper bound that the CCD claims for the distance of a false positive.
 double distance_bound(const Query& query);
 
 }  // namespace nearmiss::environments

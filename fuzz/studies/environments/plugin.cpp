@@ -1,6 +1,6 @@
 // One of our own CCDs as a plug-in that runs in one mode of the processor. The macro ROUNDING is the rounding
-// mode. If the macro FLUSH is defined, subnormal results and operands become zero. Each call sets the mode,
-// and restores the caller's mode at its end.
+// mode. If the macro FLUSH is defined, subnormal results and operands become zero. Each call of the plug-in
+// sets this mode first, and restores the caller's mode at its end.
 #include <algorithm>
 #include <cfenv>
 #include <exception>

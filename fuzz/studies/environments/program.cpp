@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t row = 25;  // the coordinates and the separation
 constexpr double asks_for_bound = 1;
 
-/// Reads n numbers. Returns false at the end of the input.
+/// Reads n numbers. Returns false if the input ends before n numbers have been read.
 bool read(double* x, std::size_t n) { return std::fread(x, sizeof *x, n, stdin) == n; }
 
 void answer(const nearmiss_subject& detector, double question, int kind, const std::vector<double>& x) {

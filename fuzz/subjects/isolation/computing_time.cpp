@@ -42,7 +42,8 @@ void add_children(pid_t process, std::vector<pid_t>& found) {
 }
 
 std::vector<pid_t> processes_of_tree(pid_t root) {
-  constexpr std::size_t most = 1024;  // because processes may start faster than this loop finds them
+  // The number of processes is limited because processes may start faster than this loop finds them.
+  constexpr std::size_t most = 1024;
   std::vector<pid_t> processes{root};
   for (std::size_t i = 0; i < processes.size() && processes.size() < most; ++i)
     add_children(processes[i], processes);

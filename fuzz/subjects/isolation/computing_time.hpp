@@ -15,13 +15,15 @@ Duration computing_time(pid_t process);
 
 /// Computing times of several processes.
 struct ComputingTime {
-  Duration running{};  ///< of processes that exist
-  Duration ended{};    ///< of ended processes that their parents have waited for; accurate to a clock tick
+  Duration running{};  ///< the computing time of processes that still exist
+  /// The computing time of ended processes that their parents have waited for. This time is accurate to a
+  /// clock tick.
+  Duration ended{};
 
   [[nodiscard]] Duration sum() const { return running + ended; }
 };
 
-/// The length of a clock tick, to which ComputingTime::ended is accurate.
+/// The length of a clock tick, which limits the accuracy of ComputingTime::ended.
 Duration clock_tick();
 
 /// The computing time of a process and all its descendants. Descendants are found only if the kernel has the

@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// Keeps the messages of exceptions, and the reasons why a plug-in could not be loaded, under numbers that
-/// fit into a verdict. Many threads may use it at once.
+/// Keeps the messages of exceptions, and the reasons why a plug-in could not be loaded, and gives each text a
+/// number that fits into a verdict. Many threads may use a FaultTexts at once.
 class FaultTexts {
  public:
   /// The number of a text. Texts beyond the first 999 share the last number.

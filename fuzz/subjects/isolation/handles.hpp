@@ -1,4 +1,4 @@
-// Descriptors and shared memory that are released with their owner.
+// Classes that own file descriptors or shared memory, and release them when the owner is destroyed.
 #pragma once
 
 #include <fcntl.h>

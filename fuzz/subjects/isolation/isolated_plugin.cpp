@@ -47,7 +47,8 @@ class IsolatedPlugin final : public DescribedSubject {
   IsolatedPlugin(const IsolatedPlugin&) = delete;
   IsolatedPlugin& operator=(const IsolatedPlugin&) = delete;
   ~IsolatedPlugin() override {
-    for (const auto& worker : idle_) worker->dismiss();  // so that all end at the same time
+    // Calling dismiss() for all workers first makes all workers end at the same time.
+    for (const auto& worker : idle_) worker->dismiss();
   }
 
   using DescribedSubject::decide;
@@ -116,8 +117,8 @@ class IsolatedPlugin final : public DescribedSubject {
   }
 
  private:
-  /// The result of a call: the worker answered the first `count` queries and, if `failure` is set, failed on
-  /// the next one.
+  /// The result of a call. The worker answered the first `count` queries of the call. If `failure` is set,
+  /// the worker failed on the query after these.
   struct Done {
     const WorkerProcess* worker;  ///< null if no worker could be started
     std::size_t first;            ///< index of the call's first query among all queries
@@ -166,8 +167,9 @@ class IsolatedPlugin final : public DescribedSubject {
     return is_asked(query.kind, query.separation > 0);
   }
 
-  /// The size of the next batch, which begins with the first query. All queries of a batch have the same
-  /// kind, the plug-in can decide either all of them or none, and a worker can get them at once.
+  /// The number of queries in the next batch, which begins with the first of these queries. All queries of a
+  /// batch have the same kind, the plug-in can decide either all of them or none, and a worker can receive
+  /// all of them in one call.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
@@ -202,16 +204,17 @@ class IsolatedPlugin final : public DescribedSubject {
   /// replaces it and continues after the query that failed. If several queries may have caused a failure,
   /// they are asked again to find the one that is to blame: first in parts, then a failing part in smaller
   /// parts, and at last query by query. If a part fails, but none of its own parts fails, as with a crash at
-  /// every 1000th query, the last query of the part is to blame. (If the part only took too long, no query is
-  /// to blame, because all its queries together may take that long.) `late` counts the queries over the time
-  /// limit.
+  /// every 1000th query, the last query of the part is to blame. (If the part failed only because it took too
+  /// long, no query is to blame, because the part's queries together may need that much time.) `late` counts
+  /// the queries that exceeded the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
     const bool is_decided = request != Request::distances && request != Request::steps;
     const bool is_asked = !is_decided || can_decide(batch.front());
     const auto size = static_cast<std::uint32_t>(batch.size());
-    std::vector<Repeated> repeated;  // each call is a part of the call before it
+    // The queries of each call are a part of the queries of the call before it.
+    std::vector<Repeated> repeated;
     for (std::uint32_t first = 0; first < size;) {
       const bool is_left_out = !is_asked || (limits_.most_late != 0 && late >= limits_.most_late);
       if (is_left_out || !worker) {
@@ -255,10 +258,11 @@ class IsolatedPlugin final : public DescribedSubject {
   /// Queries that are asked again in parts, to find the query that is to blame for a failure.
   struct Repeated {
     std::uint32_t end, part;
-    std::optional<WorkerFailure> failure;  ///< the failure, until a query is blamed for it
+    /// The failure for which a query must be blamed; empty once a query has been blamed.
+    std::optional<WorkerFailure> failure;
   };
 
-  /// The size of the parts in which `size` queries are asked again.
+  /// The size of the parts into which `size` queries are divided when they are asked again.
   static std::uint32_t part_of(std::uint32_t size) {
     constexpr std::uint32_t few = 4096;
     constexpr std::uint32_t parts = 64;
@@ -287,8 +291,8 @@ class IsolatedPlugin final : public DescribedSubject {
     return start_worker();
   }
 
-  /// Starts a worker; returns null if the plug-in cannot be loaded, or has changed its description of itself.
-  /// After three consecutive failures, starts no more workers.
+  /// Starts a worker. Returns null if the plug-in cannot be loaded, or if the plug-in's description of itself
+  /// has changed. After three consecutive failed starts, this function starts no more workers.
   std::unique_ptr<WorkerProcess> start_worker() const {
     constexpr int most_failed = 3;
     if (failed_starts_ >= most_failed) return nullptr;
@@ -308,8 +312,8 @@ class IsolatedPlugin final : public DescribedSubject {
     }
   }
 
-  /// Starts a worker, as soon as the system has room for one. Throws NoWorker if that takes longer than ten
-  /// seconds.
+  /// Starts a worker, as soon as the system can start the worker's processes. Throws NoWorker if the system
+  /// cannot start them within ten seconds.
   std::unique_ptr<WorkerProcess> new_worker() const {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::seconds patience(10);
@@ -341,7 +345,7 @@ class IsolatedPlugin final : public DescribedSubject {
   mutable FaultTexts texts_;
   mutable std::atomic<int> failed_starts_ = 0;  // number of consecutive failed starts
   mutable std::mutex mutex_;
-  mutable std::string why_not_loaded_;  // at the last failed start
+  mutable std::string why_not_loaded_;  // the reason for the last failed start
   /// The text that the process wrote when a fault last happened to a query of a thread. The key has the
   /// thread, the fault and the fault code. The thread reads the text right after the fault, so it gets the
   /// text of the query that had the fault.

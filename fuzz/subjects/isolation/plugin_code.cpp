@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file that a shell runs for a command without '/'; "" if there is none.
+/// The file that a shell runs for a command without '/'; "" if the shell finds no such file.
 std::string file_of_command(const std::string& command) {
   const char* const folders = std::getenv("PATH");
   std::istringstream each(folders == nullptr ? "" : folders);

@@ -16,8 +16,8 @@ namespace nearmiss::isolation {
 std::vector<std::string> files_of_program(std::string_view command);
 
 /// The files of a plug-in, as they were when this object was made: the shared object, or all files that a
-/// command names, including the program. Files that these files load are not included. Many threads may use a
-/// PluginCode at once.
+/// command names, including the program. Files that the shared object or the named files load are not
+/// included. Many threads may use a PluginCode at once.
 class PluginCode {
  public:
   /// Reads the files. Throws Error if a file cannot be read.
@@ -27,7 +27,7 @@ class PluginCode {
   [[nodiscard]] const std::string& name() const { return name_; }
   /// The SHA-256 digest of a shared object, in hexadecimal. For a command, the digest of its files' digests.
   [[nodiscard]] const std::string& sha256() const { return sha256_; }
-  /// The GNU build id of a shared object, in hexadecimal; "" if it has none.
+  /// The GNU build id of a shared object, in hexadecimal; "" if the shared object has no build id.
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
   void expect_unchanged(const Stop& stop) const;

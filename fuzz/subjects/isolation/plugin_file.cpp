@@ -36,7 +36,7 @@ Structure at(std::string_view bytes, std::size_t offset) {
   return structure;
 }
 
-/// The build id among the notes of a segment; "" if there is none.
+/// The build id among the notes of a segment; "" if the notes contain no build id.
 std::string build_id_in(std::string_view notes) {
   const auto aligned = [](std::size_t size) { return (size + 3) / 4 * 4; };
   while (notes.size() >= sizeof(ElfW(Nhdr))) {
@@ -83,9 +83,9 @@ PluginFile::Snapshot PluginFile::snapshot_of(const Stamp& stamp) const {
   constexpr std::chrono::seconds coarsest_tick(2);  // on FAT
   const auto now = std::chrono::steady_clock::now();
   const auto first_seen = stamp == last_.stamp ? last_.first_seen : now;
-  // The stamp is recent only while both comparisons hold. If the file system's clock is ahead of ours, the
-  // first one holds for too long, but the second one holds only for two seconds after the stamp was first
-  // seen.
+  // The stamp counts as recent only while both comparisons hold. If the file system's clock is ahead of ours,
+  // the first comparison holds for too long, but the second comparison holds only for two seconds after the
+  // stamp was first seen.
   const bool is_recent =
       std::time(nullptr) <= stamp.changed.tv_sec + coarsest_tick.count() && now <= first_seen + coarsest_tick;
   return {stamp, first_seen, is_recent};

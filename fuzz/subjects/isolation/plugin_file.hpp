@@ -30,13 +30,13 @@ class PluginFile {
   [[nodiscard]] const std::string& path() const { return path_; }
   /// The SHA-256 digest of the file's bytes, in hexadecimal.
   [[nodiscard]] const std::string& sha256() const { return sha256_; }
-  /// The file's GNU build id, in hexadecimal; "" if it has none.
+  /// The file's GNU build id, in hexadecimal; "" if the file has no build id.
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
   /// Throws PluginChanged unless the path still leads to a file with the same bytes. Reads the file again
-  /// only if its stamp (inode, size, times) has changed, or was too recent at the last reading to show later
-  /// changes; otherwise, the check takes about a microsecond. Throws Stopped if `stop` is due during a
-  /// reading.
+  /// only in two cases: the file's stamp (inode, size, times) has changed; or, when the file was last read,
+  /// the stamp was so recent that a later change of the file might not change the stamp. Otherwise, the check
+  /// takes about a microsecond. Throws Stopped if `stop` is due during a reading.
   void expect_unchanged(const Stop& stop) const;
 
  private:
@@ -51,8 +51,9 @@ class PluginFile {
   };
   /// The state of the file when its bytes were read.
   struct Snapshot {
-    Stamp stamp;                                       ///< of the file, taken before it was read
-    std::chrono::steady_clock::time_point first_seen;  ///< when the stamp was seen first
+    /// The stamp of the file, taken before the file was read.
+    Stamp stamp;
+    std::chrono::steady_clock::time_point first_seen;  ///< when this stamp was seen for the first time
     /// Whether the file could be written again without a change of its stamp, because the file system's clock
     /// may not have ticked since the times in the stamp.
     bool is_recent;
@@ -68,7 +69,7 @@ class PluginFile {
   mutable Snapshot last_{};  ///< of the last reading
 };
 
-/// The GNU build id of an ELF file, in hexadecimal; "" if it has none.
+/// The GNU build id of an ELF file, in hexadecimal; "" if the file has no build id.
 std::string gnu_build_id(std::string_view elf);
 
 }  // namespace nearmiss::isolation

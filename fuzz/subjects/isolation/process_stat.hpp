@@ -13,7 +13,7 @@ namespace nearmiss::isolation {
 /// The memory of a process in bytes.
 struct Memory {
   std::uint64_t addresses = 0;  ///< the size of the address space
-  std::uint64_t data = 0;       ///< private writable memory without the stack
+  std::uint64_t data = 0;       ///< private writable memory, without the stack
 };
 
 /// The text of a file about a process in /proc; "" if the process ended before the whole file was read.
@@ -24,7 +24,7 @@ inline std::string text_about_process(const std::string& file) {
   return text;
 }
 
-/// The memory of the process with this folder in /proc; nothing if there is no such process.
+/// The memory of the process with this folder in /proc; nothing if the process does not exist.
 inline std::optional<Memory> memory_in(const std::string& folder) {
   const std::string text = text_about_process(folder + "/status");
   if (text.empty()) return std::nullopt;

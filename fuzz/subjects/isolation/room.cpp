@@ -24,7 +24,8 @@ std::optional<std::uint64_t> number_in(const std::filesystem::path& file, const 
   return in >> number ? std::optional(number) : std::nullopt;
 }
 
-/// The memory that a control group has left. Inactive cached pages of files count as free.
+/// The memory that a control group has left. Inactive pages of files in the system's cache count as free
+/// memory.
 std::uint64_t left_in(const std::filesystem::path& group) {
   const auto most = number_in(group / "memory.max");
   const auto used = number_in(group / "memory.current");
@@ -43,7 +44,8 @@ std::uint64_t memory_left(const std::filesystem::path& root) {
   const std::string version_2 = "0::/";
   for (std::string line; std::getline(groups, line);) {
     if (!line.starts_with(version_2)) continue;
-    // A group may have its own limit, and the limits of the groups that contain it also apply.
+    // A control group may have a limit of its own, and the limits of the groups that contain it apply to it,
+    // too.
     std::filesystem::path within = line.substr(version_2.size());
     for (left = std::min(left, left_in(root / "sys/fs/cgroup")); !within.empty();
          within = within.parent_path())

@@ -1,4 +1,4 @@
-// Checks that memory is left for a large batch.
+// Checks that the system has enough memory left for a large batch.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace nearmiss::isolation {
 
-/// The memory, in bytes, that is left for this process: what the machine has left, or less if a control group
-/// (cgroups(7)) of the process has less. Reads files below `root`.
+/// The memory, in bytes, that is left for this process: the memory that the machine has left, or the memory
+/// that a control group (cgroups(7)) of the process has left, if that is less. Reads files below `root`.
 std::uint64_t memory_left(const std::filesystem::path& root = "/");
 
 /// Throws a TrialError unless this many bytes are left. The message says that `what` needs these bytes.

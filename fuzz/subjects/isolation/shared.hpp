@@ -11,7 +11,8 @@
 namespace nearmiss::isolation {
 
 /// File descriptors with which a worker starts.
-inline constexpr int reply_socket = 3;   ///< nearmiss sends a `Call`; the worker replies with its number
+/// On this socket, nearmiss sends a `Call`; the worker replies with the number of this call.
+inline constexpr int reply_socket = 3;
 inline constexpr int status_socket = 4;  ///< the worker sends a `Status`
 inline constexpr int answers_memory = 5;
 
@@ -30,7 +31,7 @@ enum class Request : std::uint8_t {
   time_each,     ///< measures the time of each query
   bounds,        ///< gives the distance bound of each query
   distances,     ///< gives the distance of the first query's primitives
-  steps,         ///< gives the positions to which the first query's vertices may safely move
+  steps,         ///< gives positions to which the vertices of the first query may safely move
 };
 
 /// A message that requests something about a batch of queries of one kind. The number distinguishes the
@@ -39,14 +40,15 @@ struct Call {
   std::uint64_t number;
   Request request;
   Kind kind = {};
-  std::uint32_t queries = 0;  ///< with `share`, the most queries that a batch may have
+  /// For the request `share`: the largest number of queries that a batch may have.
+  std::uint32_t queries = 0;
 };
 
 /// A message about the plug-in's process. The first message comes from that process before it loads the
 /// plug-in; the credentials of the message (unix(7)) name the process. The second message comes from the
 /// supervisor when the process has ended.
 struct Status {
-  std::int32_t code = 0;             ///< si_code when the process has ended
+  std::int32_t code = 0;             ///< in the second message: si_code, which says how the process ended
   std::int32_t status = 0;           ///< si_status
   std::int32_t is_in_namespace = 0;  ///< in the first message: 1 if the process has its own PID namespace
   /// In the second message: the end of what the process wrote to standard error. The text ends at the first
@@ -56,7 +58,8 @@ struct Status {
 
 /// The layout of the questions and answers of a batch of n queries in two blocks of shared memory. The layout
 /// has no gaps, so a small batch uses only the start of each block. nearmiss writes the questions, which the
-/// worker can only read. The worker writes the answers; the plug-in can write to their block, too.
+/// worker can only read. The worker writes the answers; the plug-in can also write to the block of the
+/// answers.
 struct BatchMemory {
   double* questions;
   std::byte* answers;
@@ -75,7 +78,7 @@ struct BatchMemory {
   [[nodiscard]] std::uint64_t* nanoseconds() const { return at<std::uint64_t>(1); }
   /// For each query, the time of impact, bound, distance or clearance that the request asks for.
   [[nodiscard]] double* numbers() const { return at<double>(2); }
-  /// The plug-in's decisions, as in nearmiss_subject.h.
+  /// The plug-in's decisions, with the values of nearmiss_subject.h.
   [[nodiscard]] int* values() const { return at<int>(5); }
 
   /// Like calls(), but for Detector::empty(), whose answers must not be mistaken for those of the plug-in.
@@ -94,10 +97,10 @@ struct BatchMemory {
 /// DetectorInfo and Contract (ccd/) as plain numbers and characters, which are safe to read whatever the
 /// plug-in wrote.
 struct PluginDescription {
-  std::array<char, 4096> name{};  ///< of the detector, with its options
+  std::array<char, 4096> name{};  ///< the name of the detector, with its options
   std::array<char, 256> version{}, about{};
   std::array<char, most_detectors*(longest_name + 1) + 1>
-      names{};  ///< of all detectors in the shared object, one per line
+      names{};  ///< the names of all detectors in the shared object, one name per line
   std::int32_t kinds = 0, is_narrow = 0, time_sort = 0, separation_kinds = 0, distance_kinds = 0,
                step_kinds = 0, in_arrays = 0, claims_bound = 0;
   std::int32_t apart_at_start = 0, one_root = 0;
@@ -107,14 +110,16 @@ struct PluginDescription {
 
 /// Memory that the worker writes. The plug-in, which runs in the worker's process, can write anything to it.
 struct SharedAnswers {
-  std::atomic<std::uint32_t> current{0};         ///< the query that is asked, or the first of several
+  /// The query that is being asked; if several are asked together, the first of them.
+  std::atomic<std::uint32_t> current{0};
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query
   std::array<double, 12> more{};                 ///< weights of the closest points, or the safe positions
   std::uint64_t nanoseconds = 0;                 ///< measured by decide_timed
-  std::uint64_t kernel_nanoseconds = 0;          ///< without copies, as the plug-in states; 0: not stated
-  std::array<char, 256> exception{};             ///< what() of an exception that the plug-in did not catch
-  std::atomic<std::uint64_t> threw{0};           ///< the number of the last call that an exception ended
+  /// The time without copies, as the plug-in states it; 0 if the plug-in states none.
+  std::uint64_t kernel_nanoseconds = 0;
+  std::array<char, 256> exception{};    ///< what() of an exception that the plug-in did not catch
+  std::atomic<std::uint64_t> threw{0};  ///< the number of the last call that an exception ended
   // Written when the plug-in has been loaded:
   PluginDescription about;
   std::array<char, 1024> error{};  ///< why the plug-in cannot be used; empty if it can be used

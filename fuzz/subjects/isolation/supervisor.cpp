@@ -102,7 +102,9 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files, c
   const std::string program = path_beside("nearmiss-worker");
   arguments.insert(arguments.begin(), {"nearmiss-worker", NEARMISS_WORKER_CODE});
   {
-    Spawn spawn;  // closes its copies of the descriptors at the end: only the worker may keep them open
+    // At the end of this block, nearmiss closes its copies of these descriptors, because only the worker may
+    // keep them open.
+    Spawn spawn;
     spawn.pass(files.replies, reply_socket);
     spawn.pass(status.theirs.number(), status_socket);
     spawn.pass(files.answers, answers_memory);
@@ -150,7 +152,8 @@ bool Supervisor::learns_process(const Stop& stop) {
 Supervisor::~Supervisor() {
   if (worker_ <= 0) return;
   dismiss();
-  if (process_ <= 0) kill(worker_, SIGKILL);  // the worker has not begun, and may never notice the dismissal
+  // The worker has not begun to run, and may never notice that it is dismissed.
+  if (process_ <= 0) kill(worker_, SIGKILL);
   constexpr int tries = 2000;
   for (int i = 0; i < tries; ++i) {
     if (waitpid(worker_, nullptr, WNOHANG) != 0) return;

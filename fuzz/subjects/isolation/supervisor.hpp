@@ -19,8 +19,8 @@ struct SocketPair {
   SocketPair();
 };
 
-/// Waits until something can be read from a file, at most for this time. Returns whether it can be read. A
-/// signal to nearmiss does not end the wait.
+/// Waits until something can be read from a file, but no longer than the given time. Returns whether
+/// something can be read from the file. A signal to nearmiss does not end the wait.
 bool is_ready(int file, std::chrono::milliseconds time);
 
 /// Starts nearmiss-worker, and ends it together with all processes that it started.
@@ -37,7 +37,8 @@ class Supervisor {
   ~Supervisor();
 
   /// Starts the worker. Returns when the plug-in's process exists and waits for a request to load the
-  /// plug-in. Throws NoWorker if the system starts no worker, and Stopped if `stop` is due meanwhile.
+  /// plug-in. Throws NoWorker if the system starts no worker, and Stopped if `stop` becomes due while this
+  /// function waits.
   void start(std::vector<std::string> arguments, const Files& files, const Stop& stop);
   /// Begins to end all processes of the worker. The destructor waits until they have ended.
   void dismiss() { status_.close(); }
@@ -50,9 +51,9 @@ class Supervisor {
   [[nodiscard]] int socket() const { return status_.number(); }
 
  private:
-  /// Receives the first `Status`, which names the plug-in's process. Returns false if none comes.
+  /// Receives the first `Status`, which names the plug-in's process. Returns false if no `Status` comes.
   [[nodiscard]] bool learns_process(const Stop& stop);
-  /// Waits for the first `Status`. Returns false if none comes.
+  /// Waits for the first `Status`. Returns false if no `Status` comes.
   [[nodiscard]] bool hears_from_worker(const Stop& stop) const;
 
   Descriptor status_;

@@ -5,7 +5,7 @@
 
 namespace nearmiss::isolation {
 
-/// Thrown if no more answers can be collected, for a reason that is no fault of the plug-in's code.
+/// Thrown if no more answers can be collected, for a reason that the plug-in's code has not caused.
 class TrialError : public Error {
  public:
   using Error::Error;

@@ -51,7 +51,7 @@ std::string lines_of(const Status& ended) {
 // worker receives the call, asks Detector::empty() twice, and replies. In 1,500 calls on two busy cores, the
 // median was 20 microseconds, and the longest time was 1,500 microseconds.
 constexpr Duration of_call_itself = std::chrono::microseconds(500);
-constexpr double most_asked_twice = 2;  // once to warm up, and once to measure the time
+constexpr double most_asked_twice = 2;  // once to warm up the caches, and once to measure the time
 
 constexpr std::uint64_t mebibyte = 1 << 20;
 
@@ -59,13 +59,13 @@ std::string name_of_batch(const DetectorInfo& info, std::size_t queries) {
   return fmt::format("{}: a batch of {} queries", info.name, queries);
 }
 
-/// Throws Error with the fault of a plug-in's description, unless `fault` is "".
+/// Throws Error if `fault`, which says what is wrong with a plug-in's description, is not "".
 void expect_no(const std::string& fault) {
   if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
 
-/// The largest number of times that a request calls the plug-in for one query: two for a timed batch (once to
-/// warm up), three for the time of a single query.
+/// The largest number of times that a request calls the plug-in for one query: two calls for a timed batch
+/// (the first of them warms up the caches), and three calls for the time of a single query.
 double calls_per_query(Request request) {
   return request == Request::decide_timed ? 2 : request == Request::time_each ? 3 : 1;
 }
@@ -168,10 +168,12 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   try {
     load(file.name());
   } catch (const Error&) {
-    file.expect_unchanged(*limits_.stop);  // throws if the file was changed, which is then the reason
+    // Throws if the file was changed, because this change is then the reason for the failure.
+    file.expect_unchanged(*limits_.stop);
     throw;
   }
-  file.expect_unchanged(*limits_.stop);  // otherwise, the worker might have loaded other bytes
+  // If the file was changed, the worker may have loaded other bytes than nearmiss has read.
+  file.expect_unchanged(*limits_.stop);
 }
 
 void WorkerProcess::dismiss() {
@@ -198,7 +200,8 @@ std::uint64_t WorkerProcess::data() const { return largest_data_of_tree(supervis
 
 void WorkerProcess::load(const std::string& plugin) {
   // This process checks the memory, because the system's limit does not count data that is mapped over
-  // another mapping, as static data is. The worker itself may also need a little more memory than it has now.
+  // another mapping, as static data is. The limit here also leaves room for the worker itself, which may need
+  // a little more memory than it has now.
   constexpr std::uint64_t of_worker = 1 << 20;
   most_data_ = data() + of_worker + 2 * limits_.bytes;
   const Elapsed limit{limits_.loading, limits_.loading};
@@ -226,7 +229,7 @@ void WorkerProcess::load(const std::string& plugin) {
   }
   share();
   look_at_others();
-  others_compute_ = false;  // what other processes computed during loading does not count
+  others_compute_ = false;  // the computing time of other processes during loading does not count
 }
 
 void WorkerProcess::share() {
@@ -245,7 +248,8 @@ void WorkerProcess::reserve(std::size_t queries) {
   if (queries <= reserved_) return;
   const std::string what = name_of_batch(info_, queries);
   const std::uint64_t bytes = memory_of_batch(info_, queries, limits_);
-  static std::mutex one_by_one;  // so that workers do not reserve the same memory at the same time
+  // Only one worker at a time, so that two workers do not count on the same free memory.
+  static std::mutex one_by_one;
   const std::lock_guard lock(one_by_one);
   expect_memory(what, bytes);
   if (!questions_of_batch_.reserve(queries * BatchMemory::bytes_of_question) ||
@@ -284,11 +288,12 @@ std::optional<WorkerFailure> WorkerProcess::perform(Request request, std::span<c
   for (std::uint32_t i = 0; i < n && end == End::done; ++i)
     if (!answers(i)) end = End::broken;
   if (end == End::done) {
-    const bool is_first = call.number == 1;  // the first call may prepare what the plug-in needs
+    // During the first call, the plug-in may prepare something that later calls need.
+    const bool is_first = call.number == 1;
     least_ = is_first ? Duration{} : (elapsed_.certain - of_call_itself) / most_asked_twice;
     return std::nullopt;
   }
-  // An honest worker has answered all queries before the current one.
+  // A worker that does not cheat has answered all queries before the current query.
   std::uint32_t query = std::min<std::uint32_t>(answers_->current, n - 1);
   for (std::uint32_t i = 0; i < query; ++i)
     if (!answers(i)) query = i;
@@ -328,13 +333,15 @@ WorkerProcess::End WorkerProcess::ask(const Call& call, const Elapsed& of_query,
 WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call) {
   constexpr int look_again_ms = 10;
   constexpr Duration longest_turn = milliseconds(100);
-  constexpr int most_looking = 10;  // looking at other processes takes at most a tenth of the time
+  // Looking at the plug-in's other processes takes at most a tenth of the time.
+  constexpr int most_looking = 10;
   constexpr std::uint64_t calls_between_looks = 16;
-  const bool looks =
-      others_compute_ || (call.number + 1) % calls_between_looks == 0;  // false while the plug-in is loaded
+  // No look is due while the plug-in is being loaded.
+  const bool looks = others_compute_ || (call.number + 1) % calls_between_looks == 0;
   if (others_compute_) look_at_others();
   auto next_look = steady_clock::now();
-  const Watch watch(*this);  // before the call: the worker may be done before this process runs again
+  // The clock starts before the call is sent: the worker may be done before this process runs again.
+  const Watch watch(*this);
   std::uint32_t calls = answers_->calls;
   // Failure to send is ignored here: if the worker is dead or does not read, no reply comes.
   send_call(call);
@@ -395,7 +402,7 @@ std::optional<WorkerProcess::End> WorkerProcess::end_of(std::uint64_t call) {
   return ends_within(milliseconds(1000)) ? End::dead : End::broken;
 }
 
-/// How the call ended, according to the worker's socket; nothing if the socket has no message.
+/// How the call ended, as far as the worker's socket shows it; nothing if the worker's socket has no message.
 std::optional<WorkerProcess::End> WorkerProcess::read_reply(std::uint64_t call) const {
   std::uint64_t reply = 0;
   std::array<char, sizeof reply + 1> message{};
@@ -411,7 +418,7 @@ std::optional<WorkerProcess::End> WorkerProcess::read_reply(std::uint64_t call) 
 bool WorkerProcess::ends_within(milliseconds time) {
   if (!is_ready(supervisor_.socket(), time)) return false;
   Status told{};
-  // If there is no message, the supervisor has ended, too.
+  // If the socket has no message, the supervisor has ended, too.
   if (recv(supervisor_.socket(), &told, sizeof told, MSG_DONTWAIT) == sizeof told) ended_ = told;
   return true;
 }

@@ -25,13 +25,15 @@ struct PluginLimits {
   /// A query may take this much computing time, which is the sum over all threads and processes of the
   /// plug-in. The wall-clock time may be ten times as long.
   Duration time{1};
-  std::uint64_t bytes = std::uint64_t{1} << 30;  ///< memory in addition to what loading took; 0 is no limit
-  Duration loading{30};                          ///< the time that loading may take
-  Duration leaving{0.1};                         ///< the time that closing the detector may take
-  /// Once this many queries of a call have exceeded the time limit, the rest of the call is not asked; 0: no
-  /// limit.
+  /// The memory, in bytes, that the plug-in may take in addition to the memory that it took while it was
+  /// loaded. If this is 0, there is no limit.
+  std::uint64_t bytes = std::uint64_t{1} << 30;
+  Duration loading{30};   ///< the time that loading the plug-in may take
+  Duration leaving{0.1};  ///< the time that closing the detector may take
+  /// Once this many queries of a call have exceeded the time limit, nearmiss does not ask the other queries
+  /// of the call. If this is 0, there is no limit.
   std::uint64_t most_late = 0;
-  const Stop* stop = &Stop::never();  ///< when this stop is due, all waiting ends with Stopped
+  const Stop* stop = &Stop::never();  ///< when this stop is due, every function that waits throws Stopped
   /// Whether the plug-in gets a PID namespace of its own, if the system allows that.
   bool own_namespace = true;
 };
@@ -40,13 +42,13 @@ struct PluginLimits {
 constexpr std::size_t capacity_for(const DetectorInfo& info) { return std::max(least_capacity, info.batch); }
 
 /// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries; if the worker
-/// takes only smaller batches, for the largest of these. Throws a TrialError if a batch of more than
-/// least_capacity queries needs more memory than the plug-in's limit.
+/// does not take such a large batch, the bytes for the largest batch that it takes. Throws a TrialError if a
+/// batch of more than least_capacity queries needs more memory than the plug-in's limit.
 std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits);
 
 /// A request about several queries may take this many times the limit of one query.
 inline constexpr double call_limit = 10;
-/// A detector may take this many times the limit of one query to decide `queries` queries at once.
+/// A detector may take this many times the limit of one query if it decides `queries` queries at once.
 constexpr double limit_of_batch(std::size_t queries) {
   constexpr double of_each = 1e-3;
   return std::min(call_limit, 1 + of_each * static_cast<double>(queries - 1));
@@ -54,15 +56,16 @@ constexpr double limit_of_batch(std::size_t queries) {
 
 /// Why a query has no answer.
 struct WorkerFailure {
-  std::uint32_t query;  ///< its index in the batch
+  std::uint32_t query;  ///< the index of this query in the batch
   Fault fault;
-  std::int32_t code = 0;    ///< for a crash: the signal, or the negated exit code
-  std::string text = {};    ///< for an exception: its message; for a failure to load: the reason
-  std::string errors = {};  ///< if the process has ended: the end of its output to standard error
+  std::int32_t code = 0;  ///< for a crash: the signal, or the exit code times -1
+  /// For an exception: the exception's message; for a failure to load the plug-in: the reason.
+  std::string text = {};
+  std::string errors = {};  ///< if the process has ended: the end of the text that it wrote to standard error
   /// 0 if `query` caused the failure. Otherwise, the number of queries, from `query` on, that were asked
   /// together; any of these queries may have caused the failure.
   std::uint32_t suspects = 0;
-  bool goes_on = false;  ///< the worker can be used for other queries
+  bool goes_on = false;  ///< whether the worker can still be used for other queries
 };
 
 /// Checks a worker's description of its plug-in, and returns it with printable texts. `options` has the
@@ -75,7 +78,7 @@ std::vector<std::string> names_of(const PluginDescription& about);
 class WorkerProcess {
  public:
   /// Throws Error if the plug-in cannot be used, NoWorker if no process can be started, PluginChanged if the
-  /// file was changed, and Stopped if the stop is due.
+  /// file was changed, and Stopped if the stop in `limits` is due.
   WorkerProcess(const PluginCode& file, const PluginLimits& limits);
   WorkerProcess(const WorkerProcess&) = delete;
   WorkerProcess& operator=(const WorkerProcess&) = delete;
@@ -91,8 +94,8 @@ class WorkerProcess {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
   /// Makes the worker perform a request for a batch of at most capacity_for(info()) queries of one kind.
-  /// Returns the first failure; nothing if there is none. Throws Stopped if the stop is due, and TrialError
-  /// if there is no memory for the batch.
+  /// Returns the first failure; nothing if the worker answered all queries. Throws Stopped if the stop in the
+  /// limits is due, and TrialError if the system has too little memory for the batch.
   std::optional<WorkerFailure> perform(Request request, std::span<const Query> queries);
 
   /// The plug-in's decision on query i of the batch, as in nearmiss_subject.h.
@@ -104,13 +107,14 @@ class WorkerProcess {
   /// The time in ns that the worker measured in the last call: measured() is the time of the whole call,
   /// measured(i) that of query i. Each time is limited to nearmiss's own time for the call. The time of the
   /// whole call is also raised to at least half of the computing time of all threads and processes of the
-  /// plug-in, less the part that the worker itself may compute. The factor is one half because the plug-in
-  /// may have decided each query twice. The time of the first call is not raised.
+  /// plug-in, less the computing time that the worker itself may need. The factor is one half because the
+  /// plug-in may have decided each query twice. The time of the first call is not raised.
   [[nodiscard]] std::uint64_t measured() const { return limited(answers_->nanoseconds, least_); }
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
     return limited(batch_.nanoseconds()[i], Duration{});
   }
-  /// The part of measured() without copies to a device; 0 if the plug-in does not give it.
+  /// The time measured(), without the time for copies to and from a device, as the plug-in states it; 0 if
+  /// the plug-in does not state it.
   [[nodiscard]] std::uint64_t measured_kernels() const {
     return std::min(answers_->kernel_nanoseconds, measured());
   }
@@ -118,15 +122,15 @@ class WorkerProcess {
   [[nodiscard]] Duration elapsed() const { return elapsed_.computing; }
 
  private:
-  /// How a call ended, in the order of the values: it is done; the plug-in threw an exception; the process
-  /// died; a query took too long; the whole call took too long; loading took too much memory; the worker
-  /// closed its socket, or wrote something to it that is no reply.
+  /// How a call ended, in the order of the values: the worker answered the call; the plug-in threw an
+  /// exception; the process died; a query took too long; the whole call took too long; loading took too much
+  /// memory; the worker closed its socket, or wrote something to it that is no reply.
   enum class End : std::uint8_t { done, threw, dead, query_late, call_late, too_large, broken };
 
-  /// The worker's computing time, and the wall-clock time.
+  /// The computing time of the worker, and the wall-clock time, since some moment.
   struct Elapsed {
     Duration computing{};
-    Duration passed{};   ///< excludes the time in which nearmiss was suspended
+    Duration passed{};   ///< the wall-clock time, without the time in which nearmiss was suspended
     Duration certain{};  ///< the part of the computing time that is known to belong to this call
     [[nodiscard]] bool exceeds(const Elapsed& limit) const;
     /// The limit for work that may compute for this long, and may also wait for a device or a processor.
@@ -137,19 +141,20 @@ class WorkerProcess {
   void start(const std::string& plugin);
   void load(const std::string& plugin);
   void share();
-  /// Reserves memory for a batch of this size. Throws TrialError if the system has too little.
+  /// Reserves memory for a batch of this size. Throws TrialError if the system has too little memory.
   void reserve(std::size_t queries);
   /// Writes a batch to the shared memory.
   void give(std::span<const Query> queries);
   [[nodiscard]] Duration own_computing() const;
-  /// Updates others_ and others_compute_. This takes longer than a call of a fast plug-in. So it is done in
-  /// each call only if the plug-in has started processes that compute, and in every 16th call otherwise.
+  /// Updates others_ and others_compute_. The update takes longer than a call of a fast plug-in. So it is
+  /// made in each call only if the plug-in has started processes that compute, and in every 16th call
+  /// otherwise.
   void look_at_others();
-  /// Sends a call, and waits for the reply.
+  /// Sends a call to the worker, and waits for the worker's reply.
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
-  /// Does what `ask` does, except updating is_waiting_.
+  /// Does the same as `ask`, except that it does not update is_waiting_.
   End sent(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
-  /// Sends a call; with Request::share, also the files of the shared memory.
+  /// Sends a call; if its request is Request::share, also sends the files of the shared memory.
   void send_call(const Call& call) const;
   /// How the call ended; nothing if neither the worker nor its supervisor has sent a message.
   [[nodiscard]] std::optional<End> end_of(std::uint64_t call);
@@ -171,14 +176,16 @@ class WorkerProcess {
   Supervisor supervisor_;
   Status ended_{};  ///< how the plug-in's process ended
   std::uint64_t call_ = 0;
-  std::uint64_t most_data_ = 0;  ///< limit of data() while the plug-in is loaded, if memory is limited
-  bool is_waiting_ = false;      ///< whether the worker waits for a call
+  /// The limit of data() while the plug-in is being loaded, if memory is limited at all.
+  std::uint64_t most_data_ = 0;
+  bool is_waiting_ = false;                                         ///< whether the worker waits for a call
   std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< set by dismiss()
   Elapsed elapsed_;                                                 ///< of the last call
-  ComputingTime others_;         ///< of all processes of the worker except the plug-in's process
+  /// The computing time of all processes of the worker except the plug-in's process.
+  ComputingTime others_;
   bool others_compute_ = false;  ///< whether a process that the plug-in has started computes
   Duration suspended_{};         ///< the time for which nearmiss was suspended during all calls so far
-  Duration least_{};             ///< lower limit of measured() for the last call
+  Duration least_{};             ///< the lower limit of measured() for the last call
   DetectorInfo info_;
   std::vector<std::string> names_;
 };

@@ -55,13 +55,14 @@ class DoubleDouble {
   friend DoubleDouble ldexp(const DoubleDouble& a, int exponent) {
     return DoubleDouble(dd_real(std::ldexp(a.value_.x[0], exponent), std::ldexp(a.value_.x[1], exponent)));
   }
-  /// The ilogb of the larger of the two doubles. It exceeds the ilogb of their sum by at most one.
+  /// The ilogb of the double in this sum whose magnitude is larger. It exceeds the ilogb of the sum by at
+  /// most one.
   friend int ilogb(const DoubleDouble& a) { return std::ilogb(a.value_.x[0]); }
   friend bool isfinite(const DoubleDouble& a) { return std::isfinite(a.value_.x[0]); }
 
  private:
-  /// libqd's result, or the result in double if libqd's is not finite: beyond about 2^996, intermediate
-  /// results of libqd may overflow although the result does not.
+  /// Returns libqd's result, or, if libqd's result is not finite, the result that double gives. Beyond about
+  /// 2^996, intermediate results of libqd may overflow although the result itself does not overflow.
   static DoubleDouble or_double(const dd_real& result, double in_double) {
     return std::isfinite(result.x[0]) && std::isfinite(result.x[1]) ? DoubleDouble(result)
                                                                     : DoubleDouble(in_double);

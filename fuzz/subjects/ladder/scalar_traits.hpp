@@ -15,8 +15,8 @@ struct LimitsOfDouble : std::numeric_limits<double> {
   static T infinity() { return std::numeric_limits<double>::infinity(); }
 };
 
-/// A base class for Eigen::NumTraits<T>: T is a real type with a constructor, and its operations have these
-/// estimated costs.
+/// A base class for Eigen::NumTraits<T>: T is a type of real numbers that needs its constructor to be called,
+/// and the parameters are estimated costs of T's operations.
 template <class T, int read_cost, int add_cost, int multiplication_cost>
 struct RealTraits : Eigen::GenericNumTraits<T> {
   enum {

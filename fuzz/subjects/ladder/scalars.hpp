@@ -35,7 +35,8 @@ Scalar double_with_wide_normals();
 inline constexpr SubjectInfo dd_normals_info{
     "wang:dd-normals", "wang-scalar with normals and barycentric weights in double-double, all but exact"};
 
-/// The scalars with a name of their own, by ascending precision. bits_scalar() makes "p16" to "p256".
+/// The scalars with a name of their own, by ascending precision. The list does not have "p16" to "p256",
+/// which bits_scalar() makes.
 std::vector<ladder::Scalar> named_scalars();
 
 /// Makes basic, wang or wang-tight over a scalar, from a name such as "wang:p40". `given_bound` means the

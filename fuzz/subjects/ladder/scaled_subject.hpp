@@ -23,7 +23,7 @@
 
 namespace nearmiss::ladder {
 
-/// The paper's tolerances, or, if `smallest` is set, the smallest valid ones.
+/// The tolerances that the paper gives, or, if `smallest` is set, the smallest tolerances that are valid.
 struct EitherTolerances {
   std::optional<ToleranceConstants> smallest;
 
@@ -83,8 +83,9 @@ class Scaled final : public Subject {
           within_distance_bound<EitherTolerances, T>(seen.query, given_in(seen), tolerances_);
       return std::nextafter(std::ldexp(bound, -seen.exponent), std::numeric_limits<double>::infinity());
     }
-    // The result is rounded up. The margin `slack` covers the rounding of B, the size of the pair: the B that
-    // the subject computes in T is at most B* (1 + 40ε), where B* is the exact B.
+    // The bound that this function returns is rounded up. The margin `slack` covers the rounding of B, the
+    // size of the pair: the B that the subject computes in T is at most B* (1 + 40ε), where B* is the exact
+    // B.
     const double bound = static_cast<double>(tolerances_(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));
@@ -142,7 +143,8 @@ class Scaled final : public Subject {
     int exponent = 0;
   };
 
-  /// The bound on the size of pairs, in the unit of a scaled query; nothing if none was given to the subject.
+  /// The bound on the size of pairs that was given to the subject, in the unit of a scaled query; nothing if
+  /// no bound was given.
   [[nodiscard]] std::optional<double> given_in(const Seen& seen) const {
     return given_ ? std::optional(std::ldexp(*given_, seen.exponent)) : std::nullopt;
   }
@@ -173,7 +175,7 @@ class Scaled final : public Subject {
   Algorithm algorithm_;
   std::optional<double> given_;
   bool narrow_;
-  double largest_;  ///< the largest double with the digits of T, if T is narrow
+  double largest_;  ///< if T is narrow: the largest double that has no more digits than T
   EitherTolerances tolerances_;
 };
 

@@ -1,11 +1,11 @@
 // ARCSim's CCD (Narain, Samii and O'Brien, "Adaptive anisotropic remeshing for cloth simulation", 2012, and
 // later versions), collision_test() in src/collision.cpp. It solves the cubic numerically, and accepts a root
-// at which the primitives are closer than 1e-6. This adapter passes nodes with two positions, as
+// at which the primitives are closer than 1e-6. This adapter passes nodes with two positions, as ARCSim's
 // find_face_impacts() does.
 // Source: github.com/zhou13/arcsim, 28960d2. Licence: research, no fee.
-// Question: contact; the time of impact is an estimate.
-// Contract: apart at t = 0. ARCSim starts each step from positions without collisions, and collision_test()
-// leaves out pairs that are nearly coplanar at t = 0 ("initially coplanar").
+// Question: contact; the time of impact is an estimate. Contract: the primitives are apart at t = 0. ARCSim
+// starts each step from positions without collisions, and collision_test() leaves out pairs that are nearly
+// coplanar at t = 0 ("initially coplanar").
 // $ARCSIM is the repository. This adapter includes ARCSim's source file, because only that file has the type
 // Impact. The linker drops most of that file's code:
 //
@@ -13,7 +13,8 @@
 //       -fdata-sections -Wl,--gc-sections -fvisibility=hidden -I$ARCSIM/src
 //       -I$ARCSIM/dependencies/jsoncpp/include $ARCSIM/src/{geometry,util,mesh}.cpp
 #include <collision.cpp>
-#undef static_assert  // ARCSim has a macro of this name
+// ARCSim's headers define a macro of this name.
+#undef static_assert
 
 #include "ccd/nearmiss_functions.hpp"
 

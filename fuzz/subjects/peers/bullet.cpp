@@ -1,7 +1,6 @@
 // The continuous collision detection of Bullet's soft bodies, which only tests vertices against triangles.
 // This adapter is compiled twice: with Bullet in single precision, and in double precision
-// (BT_USE_DOUBLE_PRECISION).
-// Built with Debian's libbullet-dev 3.24. Licence: zlib.
+// (BT_USE_DOUBLE_PRECISION). Built with Debian's libbullet-dev 3.24. Licence: zlib.
 // Question: contact. Contract: none.
 //
 //   tools/subject --pkg-config bullet fuzz/subjects/peers/bullet.cpp
@@ -14,7 +13,7 @@ namespace {
 using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
-constexpr btScalar dt = 1;  // our unit of time is the time step
+constexpr btScalar dt = 1;  // in our queries, the unit of time is the time step
 
 /// The normal of a triangle, not normalised.
 btVector3 normal(const btVector3& a, const btVector3& b, const btVector3& c) { return (b - a).cross(c - a); }

@@ -1,5 +1,5 @@
 // Additive CCD in the code of its authors (Li, Kaufman and Jiang, "Codimensional incremental potential
-// contact", 2021), Library/Math/Distance/CCD.h, which other solvers have copied. This adapter does what
+// contact", 2021), Library/Math/Distance/CCD.h, a file that other solvers have copied. This adapter does what
 // Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h does: it first asks whether the boxes of the two
 // motions come within the thickness, and then calls the CCD with eta = 0.1. The time is the largest step that
 // the CCD allows.
@@ -7,8 +7,8 @@
 // Question: contact, or a separation, which the code calls thickness. The time of impact is a lower bound.
 // The code takes displacements, which this adapter computes with rounding errors. The option eta is the share
 // of the distance at t = 0 that remains at the given time.
-// Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures this, which the
-// code needs, because it divides by the distance.
+// Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures that they are.
+// The code relies on this, because it divides by the distance.
 // $CODIM_IPC is the repository, whose headers contain the whole code, and include pybind11:
 //
 //   tools/subject --pkg-config 'eigen3 python3-embed' fuzz/subjects/peers/codim-ipc.cpp --

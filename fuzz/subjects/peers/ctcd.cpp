@@ -3,7 +3,7 @@
 // vertex and a triangle, this includes the vertex with each edge and each corner; for two edges, it includes
 // each end with the other edge and with each end of the other edge. CTCD's header says: "WARNING: Does not
 // work correctly if two edges are parallel at the time of intersection -- vertexEdgeCTCD should catch this
-// case". The narrow phase uses no times, so the adapter passes none on.
+// case". CTCD's narrow phase does not use the times of impact, so the adapter does not pass them on.
 // Source: github.com/evouga/collisiondetection, e5fe5c9. Licence: none stated.
 // Question: a separation, which becomes CTCD's eta. The option eta=1e-6 is the least eta, also for contact,
 // as in example/testCTCD.cpp, because CTCD finds no collision with an eta of 0.

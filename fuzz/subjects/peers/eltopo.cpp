@@ -7,8 +7,8 @@
 // Source: github.com/tysonbrochu/eltopo, 5579391. Licence: BSD.
 // Question: contact; `eltopo-root-parity` answers whether the number of contacts is odd.
 // Contract: the primitives are apart at t = 0, because El Topo starts from a surface without intersections,
-// and lets none arise. For `eltopo-root-parity`, F, the volume of the four vertices, also has at most one
-// root, and this root is simple.
+// and prevents new intersections. The contract of `eltopo-root-parity` also requires that F, the volume of
+// the four vertices, has at most one root, and that this root is simple.
 // $ELTOPO is the repository, with its code compiled into libeltopo.a. The code for root parity rounds
 // upwards, which the compiler must know (g++ needs -frounding-math). The command for `eltopo-root-parity`
 // also has -o build/release/peers/eltopo-root-parity.so:
@@ -33,7 +33,8 @@ constexpr bool is_root_parity = false;
 #endif
 
 Answer decide(const Question& q) {
-  if (is_root_parity) std::srand(1);  // the rays are random, but an answer must depend only on the query
+  // The code uses random rays, but an answer must depend only on the query.
+  if (is_root_parity) std::srand(1);
   double a = 0, b = 0, c = 0, normal_displacement = 0;
   Vec3d normal(0.0, 0.0, 0.0);
   const auto test = [&](auto ask, auto&... weights) {

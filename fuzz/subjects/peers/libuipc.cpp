@@ -10,8 +10,8 @@
 // Question: contact, or a separation, which libuipc calls thickness. The time of impact is a lower bound. The
 // code takes displacements, which this adapter computes with rounding errors. The option d-hat is the margin
 // of the boxes; its default, 0.01, is libuipc's.
-// Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures this, and the
-// code divides by the distance.
+// Contract: the primitives are farther apart at t = 0 than the thickness. The solver ensures that they are,
+// and the code relies on this, because it divides by the distance.
 // $LIBUIPC and $MUDA are the repositories, and $CUDA is the folder of CUDA's headers. No GPU is needed:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/libuipc.cpp -- -std=c++20
@@ -46,7 +46,7 @@ Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {
-    double toi = 1.1;  // unchanged if there is no contact
+    double toi = 1.1;  // the CCD leaves this number unchanged if there is no contact
     const bool collides = nearmiss::plugin::with_displacements<n>(q, [&](const auto&... v) {
       return boxes(vector(v)..., set.d_hat + q.separation) &&
              test(vector(v)..., 0.1, q.separation, 1000, toi);

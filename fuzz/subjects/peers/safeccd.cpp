@@ -26,7 +26,7 @@ struct Wrapper : SafeCCDWrapper {
 };
 
 Answer decide(const Question& q) {
-  double t = 0, r = 0, s = 0;  // r and s are not used, but the code writes weights to them
+  double t = 0, r = 0, s = 0;  // we do not use the weights r and s, but the code writes them
   const auto test =
       q.kind == NEARMISS_VERTEX_TRIANGLE ? SafeCCDWrapper::VertexTriangleCCD : SafeCCDWrapper::EdgeEdgeCCD;
   const bool collides =

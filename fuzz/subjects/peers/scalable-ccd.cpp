@@ -118,7 +118,8 @@ struct Settings {
 constexpr std::array<nearmiss::Option<Settings>, 2> settings{
     {{"tolerance", &Settings::tolerance, 1e-300, 1e300}, {"iterations", &Settings::iterations, -1, 2e9}}};
 
-/// The number of domains that the queue can hold. 1e7 iterations add fewer domains.
+/// The number of domains that the queue can hold. With a limit of 1e7 iterations, the CCD adds fewer domains
+/// than this.
 constexpr unsigned capacity = 1U << 24;
 
 /// The memory of the queue: 0.9 GB, of which the system provides only the parts that are used.

@@ -18,7 +18,7 @@ using nearmiss::plugin::Question;
 
 struct Settings {
   double tolerance = ticcd::DEFAULT_CCD_DISTANCE_TOL;
-  double iterations = 1e6;  // as in the authors' benchmark; -1: no limit
+  double iterations = 1e6;  // the value that the authors' benchmark passes; -1: no limit
 };
 
 constexpr std::array<nearmiss::Option<Settings>, 2> settings{
@@ -26,7 +26,8 @@ constexpr std::array<nearmiss::Option<Settings>, 2> settings{
 
 Answer decide(const Settings& set, const Question& q) {
   const ticcd::Array3 of_query =
-      ticcd::Array3::Constant(-1);  // -1: the rounding errors of this query, not of a scene
+      // -1: the CCD allows for the rounding errors of this query, not for those of a whole scene.
+      ticcd::Array3::Constant(-1);
   double toi = 0, reached = 0;
   const auto test = q.kind == NEARMISS_VERTEX_TRIANGLE ? ticcd::vertexFaceCCD : ticcd::edgeEdgeCCD;
   const bool collides = with_vertices(q, [&](const auto&... v) {

@@ -16,7 +16,7 @@ template <int n>
 class Operations {
   using Real = Lanes<n>;
   using Numbers = std::array<double, n>;
-  /// A truth value that all lanes share.
+  /// A truth value that is the same in all lanes.
   struct Truths {
     bool same;
     bool operator[](std::size_t /*lane*/) const { return same; }

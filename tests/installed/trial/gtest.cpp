@@ -165,7 +165,7 @@ TEST(MyCcd, OptionsThatMakeNoSenseAreRefused) {
         nearmiss::TrialOptions{.time = std::chrono::seconds(-1)}})
     EXPECT_THROW(nearmiss::trial(mine, bad), std::invalid_argument);
   EXPECT_THROW(nearmiss::hard_queries("uniforms", nearmiss::Kind::edge_edge, 1, 10), std::invalid_argument);
-  // The report of a CCD that was asked nothing is not clean.
+  // The report of a trial that asked its CCD no query is not clean.
   EXPECT_FALSE(nearmiss::trial(exact, {.time = std::chrono::nanoseconds(1)}).clean());
 }
 

@@ -77,7 +77,7 @@ export async function showsAClaimOfNoDistanceThatIsRefuted(browser) {
   // Each of 3 subjects has a mark, and the failed subject also has a cross.
   assert.equal(await count(page, "#error-time .concat_0_group .mark-symbol.role-mark path"), 4);
   assert.match(await page.locator("#farthest").textContent(), /beyond a bound of 0/);
-  // The chart shows the bound even if all false positives are beyond it.
+  // The chart shows the bound even if all false positives are beyond this bound.
   const beyond = await open(browser, makeReport("all-beyond", ["--cases", "40", "--family", "uniform", "--no-shrink", "--subject", plugin("claims_exact")]));
   assert.ok((await beyond.locator("#distances .role-axis-label text").allTextContents()).includes("1"));
   // The picture shows the plane between the primitives, which proves that the bound is refuted.

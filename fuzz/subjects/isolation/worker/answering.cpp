@@ -47,7 +47,7 @@ void copy(std::string_view text, std::array<char, n>& to) {
   to[text.copy(to.data(), n - 1)] = '\0';
 }
 
-/// Notes the message of the exception that is being handled.
+/// Stores the message of the exception that is being handled in the memory shared with nearmiss.
 void note_exception() {
   try {
     if (const auto exception = std::current_exception()) std::rethrow_exception(exception);
@@ -59,7 +59,8 @@ void note_exception() {
   }
 }
 
-/// Notes an exception that cannot be caught, such as one from another thread, and ends the process.
+/// Stores the message of an exception that cannot be caught, such as an exception from another thread, and
+/// ends the process.
 [[noreturn]] void note_exception_and_end() {
   note_exception();
   std::abort();
@@ -80,7 +81,7 @@ void handle(int signal, void (*handler)(int)) {
 /// program. Ends the process by the signal of the crash, even if the stack cannot be read in time.
 extern "C" void write_stack_and_end(int signal) {
   constexpr itimerval patience{{}, {0, 20'000}};
-  constexpr int of_handler = 2;  // the innermost functions, which handle the signal
+  constexpr int of_handler = 2;  // the innermost functions on the stack, which handle the signal
   static std::array<void*, 48> functions;
   if (crash == 0) {
     crash = signal;
@@ -103,21 +104,21 @@ void prepare_for_faults(bool writes_stack) {
   const stack_t other{.ss_sp = stack.data(), .ss_flags = 0, .ss_size = stack.size()};
   sigaltstack(&other, nullptr);
   std::array<void*, 1> any{};
-  backtrace(any.data(), 1);  // the first call allocates memory
+  backtrace(any.data(), 1);  // the first call of backtrace() allocates memory, so it is made before a crash
   // A crash must look like a crash, even if a sanitizer would turn it into an exit.
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     handle(signal, writes_stack ? write_stack_and_end : SIG_DFL);
   std::set_terminate(note_exception_and_end);
 }
 
-/// Notes which query comes next, because the plug-in may crash in it.
+/// Stores which query comes next, so that nearmiss knows the query if the plug-in crashes in it.
 void begin(std::uint32_t i) {
   answers->memory_refused.store(0, std::memory_order_relaxed);
   answers->current.store(i, std::memory_order_release);
   answers->calls.fetch_add(1, std::memory_order_release);
 }
 
-/// Notes for n queries the number of the call that answered them (0: no call). Must be called after the
+/// Stores for n queries the number of the call that answered them (0: no call). Must be called after the
 /// answers are written, because the process may end at any moment.
 void note(std::uint64_t* calls, std::uint32_t n, std::uint64_t call) {
   for (std::uint32_t i = 0; i < n; ++i) std::atomic_ref(calls[i]).store(call, std::memory_order_release);
@@ -128,7 +129,8 @@ const double* coordinates(const Detector& detector, Kind kind, std::uint32_t fir
   const std::size_t size = coordinate_count(kind);
   if (!detector.info().in_arrays) return shared.x() + size * first;
   if (n == shared.n) return shared.x();
-  static std::array<double, 24 * least_capacity> part;  // a detector with larger batches gets them whole
+  // A detector that wants larger batches always gets them as a whole.
+  static std::array<double, 24 * least_capacity> part;
   for (std::size_t k = 0; k < size; ++k) std::copy_n(shared.x() + shared.n * k + first, n, &part[n * k]);
   return part.data();
 }
@@ -160,8 +162,9 @@ class Asking {
   }
 
   /// Asks the plug-in's detector about the whole batch, and measures the time of all threads, since a plug-in
-  /// may have threads of its own. Before that, makes the detector decide some queries, to bring its code into
-  /// the caches, unless the first query takes so long that caches make no difference.
+  /// may have threads of its own. Before the measurement, makes the detector decide some queries, which
+  /// brings the detector's code into the caches. Omits this if the first query takes so long that caches make
+  /// no difference.
   std::uint64_t time_of_warm() {
     constexpr std::uint64_t long_query = 1'000'000;
     const std::uint32_t all = call_.queries;
@@ -180,10 +183,10 @@ class Asking {
     return timed(0, all);
   }
 
-  /// The part of the last measured time without copies to a device.
+  /// The last measured time, without the time that the detector spent on copies to and from a device.
   [[nodiscard]] std::uint64_t kernel_nanoseconds() const { return kernel_nanoseconds_; }
 
-  /// Calls ask(x, h) for each query, and writes the result as the answer to this query.
+  /// Calls ask(x, h) for each query of the batch, and stores the result as the answer to this query.
   template <class Ask>
   void give(const Ask& ask) {
     for (std::uint32_t i = 0; i < call_.queries; ++i) {
@@ -267,12 +270,12 @@ void reply(std::uint64_t number) {
   }
 }
 
-/// The two descriptors that come with Request::share: first that of the memory for questions, then that of
-/// the memory for answers.
+/// The two descriptors that come with Request::share: the first is that of the memory for questions, the
+/// second is that of the memory for answers.
 using Files = std::array<int, 2>;
 
-/// Receives a call with at most `most` queries; if `files` is not null, also the files that come with the
-/// call.
+/// Receives a call with at most `most` queries; if `files` is not null, also receives the files that come
+/// with the call.
 bool receive(Call& call, std::uint32_t most, Files* files = nullptr) {
   iovec content{&call, sizeof call};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(Files))> control{};
@@ -350,7 +353,7 @@ std::unique_ptr<Detector> open_detector(const nearmiss_subject& subject, const s
 
 /// A detector that is ready to be asked, and the process that runs it.
 struct Loaded {
-  std::unique_ptr<Detector> detector;  ///< null if it cannot be used
+  std::unique_ptr<Detector> detector;  ///< null if the detector cannot be used
   pid_t process = getpid();
 };
 
@@ -366,7 +369,8 @@ Loaded load(std::string_view name) {
     return {open_detector(library.subject(parsed.subject), parsed.options, library.names())};
   } catch (const Error& error) {
     const std::string_view text = error.what();
-    if (text.ends_with(std::strerror(ENOMEM))) note_refusal();  // dlopen(3) does not call our malloc
+    // dlopen(3) does not call our malloc, which would have noted the refusal.
+    if (text.ends_with(std::strerror(ENOMEM))) note_refusal();
     copy(text, answers->error);
     return {};
   }
@@ -380,7 +384,8 @@ int answer_requests(const char* plugin, std::uint64_t bytes) {
   answers = map<SharedAnswers>(answers_memory, PROT_READ | PROT_WRITE, sizeof(SharedAnswers));
   if (answers == nullptr) return 1;
   note_refusals_in(answers->memory_refused);
-  prepare_for_faults(!is_program(plugin));  // a program's stack is in another process
+  // If the plug-in is a program, the program's stack is in another process.
+  prepare_for_faults(!is_program(plugin));
   Call call{};
   if (!receive(call, 0)) return 0;
   limit_memory_of_loading(bytes);

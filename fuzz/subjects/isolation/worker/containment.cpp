@@ -29,7 +29,7 @@ unsigned long threads_of_user() {
     const std::string threads = std::string("/proc/") + entry->d_name + "/task";
     struct stat about {};
     if (stat(threads.c_str(), &about) == 0 && about.st_uid == getuid() && about.st_nlink > 2)
-      count += about.st_nlink - 2;  // without the links of . and ..
+      count += about.st_nlink - 2;  // the links . and .. of the folder do not count
   }
   closedir(processes);
   return count;
@@ -42,15 +42,15 @@ void write_to(const char* path, const std::string& text) {
   close(file);
 }
 
-/// Enters new namespaces. First tries without a new user namespace, because root has its rights to files only
-/// in its own user namespace.
+/// Enters new namespaces. This function first tries to do so without a new user namespace, because root keeps
+/// its rights to files only in its original user namespace.
 bool enter(int namespaces) {
   if (unshare(namespaces) == 0) return true;
   const auto same = [](unsigned id) { return std::to_string(id) + ' ' + std::to_string(id) + " 1"; };
   const std::string user = same(geteuid());
   const std::string group = same(getegid());
   if (unshare(CLONE_NEWUSER | namespaces) != 0) return false;
-  write_to("/proc/self/setgroups", "deny");  // required before the group can be kept
+  write_to("/proc/self/setgroups", "deny");  // the system requires this before it accepts gid_map
   write_to("/proc/self/uid_map", user);
   write_to("/proc/self/gid_map", group);
   return true;

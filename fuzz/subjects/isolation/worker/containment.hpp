@@ -10,7 +10,7 @@ namespace nearmiss::isolation {
 /// error by /dev/null.
 void close_files();
 
-/// Keeps crashes from writing a file "core", which could replace a file of the user.
+/// Prevents a crash of this process from writing a file "core", which could replace a file of the user.
 void forbid_core_dumps();
 
 /// Asks the system to end this process or one of its descendants before all other processes when the system
@@ -32,8 +32,9 @@ bool enter_namespaces();
 void leave_network();
 
 /// Gives process 1 and its descendants folders of their own: a read-only /proc that shows only their
-/// namespace, a /dev/shm of `bytes` bytes for POSIX shared memory (0: half of the machine's memory), and a
-/// /dev/pts for terminals. If the system refuses this, as in some containers, these folders stay as they are.
+/// namespace, a /dev/shm for POSIX shared memory, which can hold `bytes` bytes (if `bytes` is 0: half of the
+/// machine's memory), and a /dev/pts for terminals. If the system refuses this, as in some containers, these
+/// folders stay as they are.
 void mount_own_folders(std::uint64_t bytes);
 
 }  // namespace nearmiss::isolation

@@ -29,8 +29,9 @@ void note_refusal() {
 
 }  // namespace nearmiss::isolation
 
-// These functions replace those of glibc for the plug-in, to note failures. They call glibc's functions by
-// the names below, which glibc provides for this purpose. (Sanitizers have their own allocators.)
+// These functions replace those of glibc for the plug-in, so that they can note when an allocation fails.
+// They call glibc's functions by the names below, which glibc provides for this purpose. (Sanitizers have
+// their own allocators.)
 #if defined(__SANITIZE_ADDRESS__)
 #define NEARMISS_SANITIZER_ALLOCATES
 #elif defined(__has_feature)
@@ -78,8 +79,8 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// The folder in /proc of this process, or of its only child, which is a program. Does not rely on the number
-/// of the process, because /proc may show another PID namespace, in which processes have other numbers.
+/// The folder in /proc of this process, or of its only child, which is a program. The path does not contain
+/// the number `process`, because /proc may show another PID namespace, in which processes have other numbers.
 std::string folder_of(pid_t process) {
   if (process == getpid()) return "/proc/self";
   std::ifstream("/proc/thread-self/children") >> process;

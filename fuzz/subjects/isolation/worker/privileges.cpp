@@ -27,7 +27,8 @@ namespace {
 
 constexpr int ioprio_who_process = 1;  // ioprio_set(2); no header has it
 
-/// The machine (AUDIT_ARCH_...) of this program's system calls; 0 if the filter does not know it.
+/// The machine (AUDIT_ARCH_...) of this program's system calls; 0 if the filter does not support this
+/// machine.
 #if defined(__x86_64__)
 constexpr unsigned machine = AUDIT_ARCH_X86_64;
 #elif defined(__aarch64__)
@@ -87,8 +88,8 @@ class Filter {
   void load(std::size_t offset) {
     code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(offset)));
   }
-  /// Loads the lower half of an argument, since the judged arguments have 32 bits. x86-64 and AArch64 store
-  /// the lower half first.
+  /// Loads the lower half of an argument, because the arguments that the filter judges have 32 bits. x86-64
+  /// and AArch64 store the lower half first.
   void load_argument(unsigned i) { load(offsetof(seccomp_data, args) + i * sizeof(__u64)); }
   void jump(unsigned short test, unsigned value, unsigned char if_true, unsigned char if_false) {
     code_.push_back(BPF_JUMP(static_cast<unsigned short>(BPF_JMP | test | BPF_K), value, if_true, if_false));
@@ -115,7 +116,7 @@ void drop_privileges() {
     set.effective &= of_files;
     set.permitted &= of_files;
     set.inheritable = 0;
-    of_files = 0;  // the next element of `sets` has no privilege on files
+    of_files = 0;  // only the first element of `sets` has privileges on files
   }
   syscall(SYS_capset, &header, sets.data());
 }
@@ -138,7 +139,8 @@ void confine_to_itself() {
   for (const int call : {SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev, SYS_tkill, SYS_pidfd_open,
                          SYS_pidfd_getfd, SYS_pidfd_send_signal})
     filter.forbid(call);
-  // Allows these calls only if their first argument is this process, or 0, which is the caller or its group.
+  // Allows these calls only if their first argument is this process, or 0. The value 0 stands for the caller
+  // or for the caller's group.
   for (const int call : {SYS_kill, SYS_tgkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo, SYS_prlimit64,
                          SYS_sched_setscheduler, SYS_sched_setparam, SYS_sched_setattr, SYS_sched_setaffinity,
                          SYS_migrate_pages, SYS_move_pages})
@@ -148,10 +150,11 @@ void confine_to_itself() {
   filter.limit(SYS_ioprio_set, 0, ioprio_who_process, ioprio_who_process);
   for (const int call : {SYS_setpriority, SYS_ioprio_set}) filter.limit(call, 1, self, 0);
   // Forbids setting the owner of an open file: the owner gets signals, and the process that sets the owner
-  // chooses which.
+  // chooses which signals these are.
   for (const int command : {F_SETOWN, F_SETOWN_EX}) filter.forbid(SYS_fcntl, 1, command);
   for (const int command : {FIOSETOWN, SIOCSPGRP}) filter.forbid(SYS_ioctl, 1, command);
-  // Keeps all started processes in the group, so that one signal to the group reaches all of them.
+  // Keeps all processes that this process starts in its process group, so that one signal to the group
+  // reaches all of them.
   for (const int call : {SYS_setsid, SYS_setpgid}) filter.forbid(call);
   filter.apply();
 }

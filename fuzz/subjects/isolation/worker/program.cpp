@@ -44,13 +44,13 @@ struct Pipe {
   dup2(errors.write, STDERR_FILENO);
   closefrom(STDERR_FILENO + 1);
   std::signal(SIGPIPE, SIG_DFL);
-  // `exec` replaces the shell by the program, so that limits apply to the program. A command that begins with
-  // `cd FOLDER &&` already has an `exec`.
+  // `exec` replaces the shell by the program, so that limits of this process's child apply to the program
+  // itself. A command that begins with `cd FOLDER &&` already has an `exec`.
   execl("/bin/sh", "sh", "-c", ((command.starts_with("cd ") ? "" : "exec ") + command).c_str(), nullptr);
   _exit(127);
 }
 
-/// The last nonempty line.
+/// The last line of the text that is not empty.
 std::string last_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
   return text.substr(text.rfind('\n') + 1);

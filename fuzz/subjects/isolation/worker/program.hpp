@@ -47,17 +47,18 @@ class Program {
   void start(const std::string& command);
   std::string read_description();
 
-  /// Writes a request. Throws UnaskedBytes if the program has written anything since its last answer.
+  /// Writes a request to the program. Throws UnaskedBytes if the program has written anything since its last
+  /// answer.
   void ask(Question question, int kind, std::size_t n, const double* x, const double* h);
-  /// Reads the answer, and calls take(i, number, time) for each query. Throws UnaskedBytes if more bytes
-  /// follow.
+  /// Reads the program's answer, and calls take(i, number, time) for each query i. Throws UnaskedBytes if the
+  /// program has written more bytes than the answer has.
   template <class Take>
   void read_answers(std::size_t n, const Take& take);
-  /// Asks about one query, and returns the number in the program's answer. Throws UnaskedBytes as ask() and
-  /// read_answers() do.
+  /// Asks the program about one query, and returns the number in the program's answer. Throws UnaskedBytes as
+  /// ask() and read_answers() do.
   double number(Question question, int kind, const double* x, double h);
-  /// Reads the seconds at the end of an answer, if the program gives them. Throws UnaskedBytes if anything
-  /// follows.
+  /// Reads the seconds at the end of an answer, if the program gives them. Throws UnaskedBytes if the program
+  /// has written anything after them.
   void read_end();
   void expect_silence() const;
   void write_all(const void* data, std::size_t size);
@@ -71,8 +72,8 @@ class Program {
 
   std::string command_;
   pid_t process_ = -1;
-  int in_ = -1, out_ = -1,
-      errors_ = -1;          ///< pipes to the program's stdin, and from its stdout and stderr
+  /// Pipes to the program's standard input, and from its standard output and standard error.
+  int in_ = -1, out_ = -1, errors_ = -1;
   std::string last_errors_;  ///< the end of what the program wrote to standard error
   ProgramDescription description_;
   double seconds_ = -1;  ///< the seconds that the last answer took without copies, if the program gives them

@@ -34,7 +34,8 @@ std::uint32_t whole_number(const std::string& text) {
   return number<std::uint32_t>(text, "a whole number below 2^32");
 }
 
-/// The index of a value in `words`, plus `first`.
+/// The index of `value` in `words`, plus the number `first`. Throws Error if `words` does not contain the
+/// value.
 int place(const std::string& value, const std::vector<std::string>& words, int first) {
   for (std::size_t i = 0; i < words.size(); ++i)
     if (value == words[i]) return first + static_cast<int>(i);

@@ -13,7 +13,8 @@ struct ProgramDescription {
   bool claims_bound = false;
   bool says_seconds = false;  ///< each answer ends with the seconds that it took without copies
   bool ignores_separation_in_bounds = false;  ///< in version 2, questions about bounds have h = 0
-  nearmiss_subject subject{};                 ///< the other facts; its texts and functions are not set
+  /// The other facts about the program; the texts and functions of `subject` are not set.
+  nearmiss_subject subject{};
 
   /// Parses all lines, including the empty line that ends them. Throws Error if a line is invalid, or a
   /// required line is missing.

@@ -67,7 +67,9 @@ std::optional<siginfo_t> end_of(pid_t process) {
   while (waitid(P_ALL, 0, &how, WEXITED | WNOHANG | WNOWAIT) == 0 && how.si_pid != 0) {
     if (how.si_pid == process) {
       end = how;
-      kill(-process, SIGKILL);  // before the process is reaped: then another group may get its number
+      // The signal is sent before the process is reaped, because the group's number may belong to another
+      // group afterwards.
+      kill(-process, SIGKILL);
     }
     waitpid(how.si_pid, nullptr, 0);
     how.si_pid = 0;
@@ -75,8 +77,8 @@ std::optional<siginfo_t> end_of(pid_t process) {
   return end;
 }
 
-/// Ends all descendants, including those that have left their session: when a child ends, its children become
-/// children of this process, which is a subreaper (prctl(2)).
+/// Ends all descendants, including those that have left their session: when a child of this process ends, the
+/// children of that child become children of this process, because this process is a subreaper (prctl(2)).
 void end_descendants() {
   const auto any_is_left = [] {
     pid_t ended = 1;
@@ -90,7 +92,7 @@ void end_descendants() {
   }
 }
 
-/// Keeps the last bytes that were written to a pipe.
+/// Reads a pipe, and keeps the last bytes that were written to it.
 class LastOutput {
  public:
   /// `pipe` is the descriptor from which the pipe is read; -1 if there is no pipe.
@@ -101,13 +103,15 @@ class LastOutput {
   /// The event for poll(2): the pipe can be read. poll(2) ignores it once the pipe has no writer.
   [[nodiscard]] pollfd event() const { return {pipe_, POLLIN, 0}; }
 
-  /// Reads what is in the pipe, at most 128 KiB, because a writer may never stop.
+  /// Reads the bytes that are in the pipe, but at most 128 KiB, because a process that writes to the pipe may
+  /// never stop.
   void read_some() {
     std::array<char, 4096> block{};
     ssize_t size = 1;
     for (int i = 0; i < 32 && pipe_ >= 0 && size > 0; ++i) {
       size = read(pipe_, block.data(), block.size());
-      std::replace(block.begin(), block.end(), '\0', '?');  // a zero would end the text
+      // A zero byte would end the text in Status::errors.
+      std::replace(block.begin(), block.end(), '\0', '?');
       if (size > 0) text_.append(block.data(), static_cast<std::size_t>(size));
       if (text_.size() > most) text_.erase(0, text_.size() - most);
     }
@@ -126,7 +130,7 @@ class LastOutput {
 };
 
 /// Waits until a child has ended or nearmiss has closed the status socket, and meanwhile reads what the child
-/// writes to `errors`. Returns how the child ended, if it did.
+/// writes to `errors`. Returns how the child ended; nothing if the child still runs.
 std::optional<siginfo_t> watch(pid_t child, LastOutput& errors) {
   const sigset_t wanted = end_of_child();
   const int signals = signalfd(-1, &wanted, SFD_CLOEXEC);
@@ -150,7 +154,7 @@ std::optional<siginfo_t> watch(pid_t child, LastOutput& errors) {
 int run_plugin(const Assignment& work, int errors) {
   dup2(errors, STDERR_FILENO);
   close(errors);
-  setsid();  // so that a signal to its group reaches no process of nearmiss
+  setsid();  // the process gets its own group, so that a signal to this group reaches no process of nearmiss
   const sigset_t blocked = end_of_child();
   sigprocmask(SIG_UNBLOCK, &blocked, nullptr);
   tell({.is_in_namespace = work.own_namespace ? 1 : 0});
@@ -188,7 +192,8 @@ int supervise(const Assignment& work) {
     tell(ended);
   }
   if (!work.own_namespace) {
-    if (!end && kill(-process, SIGKILL) != 0) kill(process, SIGKILL);  // it has no group of its own yet
+    // The process has no group of its own yet.
+    if (!end && kill(-process, SIGKILL) != 0) kill(process, SIGKILL);
     end_descendants();
   }
   _exit(0);
