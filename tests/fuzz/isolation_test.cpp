@@ -144,8 +144,7 @@ TEST(Isolation, TheComputingTimeOfAChildCounts) {
   const auto queries = one_batch(50);
   std::vector<Verdict> verdicts(queries.size());
   std::thread([&] {
-    // The child, too, may then use only this processor, so this thread leaves the processor to the child.
-    use_one_processor();
+    use_one_processor();  // so that the child of the plug-in's process gets the processor
     subject->decide_timed(queries, verdicts);  // starts the child
     for (int i = 0; i < 3; ++i)
       EXPECT_GE(subject->decide_timed(queries, verdicts).nanoseconds, 50 * 900'000U / 2);

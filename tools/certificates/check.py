@@ -145,9 +145,8 @@ def bracket(s, vectors, body):
 
 
 def edge(kind, x, names):
-    """A component of (v - y) x (z - y) is zero at a time in [p, q]. The other components are
-    multiples of this component. So v is on the line through y and z. Two inner products show that
-    v is between y and z."""
+    """A component of (v - y) x (z - y) is zero at a time in [p, q]. The others are its multiples.
+    So v is on the line through y and z. Two inner products show that v is between y and z."""
     edges = [e for e in permutations(range(len(x)), 3) if kind[e[0]] != kind[e[1]] == kind[e[2]]]
     require(names in [[*map(str, e)] for e in edges], '"edge" is not a vertex and an edge')
     v, y, z = (x[int(name)] for name in names)

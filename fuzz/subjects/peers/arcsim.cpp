@@ -3,9 +3,9 @@
 // at which the primitives are closer than 1e-6. This adapter passes nodes with two positions, as ARCSim's
 // find_face_impacts() does.
 // Source: github.com/zhou13/arcsim, 28960d2. Licence: research, no fee.
-// Question: contact; the time of impact is an estimate. Contract: the primitives are apart at t = 0. ARCSim
-// starts each step from positions without collisions, and collision_test() leaves out pairs that are nearly
-// coplanar at t = 0 ("initially coplanar").
+// Question: contact; the time of impact is an estimate.
+// Contract: the primitives are apart at t = 0. ARCSim starts each step from positions without collisions, and
+// collision_test() leaves out pairs that are nearly coplanar at t = 0 ("initially coplanar").
 // $ARCSIM is the repository. This adapter includes ARCSim's source file, because only that file has the type
 // Impact. The linker drops most of that file's code:
 //

@@ -1,6 +1,7 @@
 // The continuous collision detection of Bullet's soft bodies, which only tests vertices against triangles.
 // This adapter is compiled twice: with Bullet in single precision, and in double precision
-// (BT_USE_DOUBLE_PRECISION). Built with Debian's libbullet-dev 3.24. Licence: zlib.
+// (BT_USE_DOUBLE_PRECISION).
+// Built with Debian's libbullet-dev 3.24. Licence: zlib.
 // Question: contact. Contract: none.
 //
 //   tools/subject --pkg-config bullet fuzz/subjects/peers/bullet.cpp

@@ -7,8 +7,9 @@
 // Source: github.com/KemengHuang/GPU_IPC, 46594e0. Licence: MPL 2.0.
 // Question: contact; the time of impact is a lower bound. The code takes displacements, which this adapter
 // computes with rounding errors. The option eta is the share of the distance at t = 0 that remains at the
-// time of impact that the code gives. Contract: the primitives are apart at t = 0. The solver ensures that
-// they are, and the code relies on this, because it divides by the distance.
+// time of impact that the code gives.
+// Contract: the primitives are apart at t = 0. The solver ensures that they are, and the code relies on this,
+// because it divides by the distance.
 // $GPU_IPC is the repository, and $CUDA is the folder of CUDA's headers. No GPU is needed:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/gipc.cpp -- -I$GPU_IPC/GPU_IPC -I$CUDA/include

@@ -7,7 +7,8 @@
 // Source: github.com/Continuous-Collision-Detection/Minimum-Separation-Root-Finder, src, 1aeb9ac0. Licence:
 // MIT.
 // Question: a separation. If the query asks for contact, the separation is 1e-8. The time of impact is an
-// estimate. Contract: at t = 0, the primitives are more than 1e-8 apart.
+// estimate.
+// Contract: at t = 0, the primitives are more than 1e-8 apart.
 // $MSRF is the repository, with its code compiled into libmsrf.a:
 //
 //   tools/subject --pkg-config eigen3 fuzz/subjects/peers/msrf.cpp -- -I$MSRF/src $MSRF/libmsrf.a

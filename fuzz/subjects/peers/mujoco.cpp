@@ -7,9 +7,9 @@
 // vertices are free.
 // Source: github.com/google-deepmind/mujoco, a7255075b. Licence: Apache 2.0.
 // Question: contact; the time of impact is a lower bound. With same-flex=1, both primitives belong to one
-// flex (a deformable), and their mean motion does not count. Contract: the primitives are apart at t = 0.
-// mjc_advance() leaves out pairs whose gap is 0 ("the contact solver owns it"), and its header promises a
-// positive gap at rest.
+// flex (a deformable), and their mean motion does not count.
+// Contract: the primitives are apart at t = 0. mjc_advance() leaves out pairs whose gap is 0 ("the contact
+// solver owns it"), and its header promises a positive gap at rest.
 // $MUJOCO is the repository, with src/engine/engine_{collision_continuous,util_blas,util_errmem}.c compiled
 // into libmujoco.a:
 //
