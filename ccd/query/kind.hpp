@@ -23,7 +23,7 @@ enum class Kind : std::uint8_t {
 inline constexpr std::array kinds{Kind::vertex_triangle, Kind::edge_edge, Kind::vertex_vertex,
                                   Kind::vertex_edge};
 
-/// The kinds of queries that decide whether two triangle meshes collide.
+/// The kinds of queries that decide whether triangle meshes collide.
 inline constexpr std::array kinds_of_meshes{Kind::vertex_triangle, Kind::edge_edge};
 
 /// The other kinds, whose queries have fewer than four vertices.

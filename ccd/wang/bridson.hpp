@@ -47,8 +47,8 @@ bool is_near(const Pair<kind, double>& pair, double t, const BridsonTolerances& 
 }  // namespace detail
 
 /// Solves F(t) = 0, where F is the coplanarity cubic, as `basic` does, and applies the proximity test at each
-/// root and at t = 1. It guarantees nothing: if rounding hides a root, it may miss a collision, whatever the
-/// tolerances of the proximity test are.
+/// root and at t = 1. This CCD guarantees nothing: if rounding hides a root, the CCD may miss a collision,
+/// whatever the tolerances of the proximity test are.
 template <Kind kind>
 Verdict bridson(const Query& query, const BridsonTolerances& tolerances) {
   Pair<kind, double> pair;  // without a bound B, and so without normalisation

@@ -105,8 +105,9 @@ struct Approach {
 
 }  // namespace detail
 
-/// Reports primitives that are within the query's separation at one of Approach::times(). It guarantees
-/// nothing. The reported time is the first at which they are within the separation, up to rounding.
+/// Reports primitives that are within the query's separation at one of Approach::times(). This CCD guarantees
+/// nothing. The reported time is, up to rounding, the first time at which the primitives are within the
+/// separation.
 template <bool plane_culling>
 Verdict closest_approach(const Query& query) {
   const double h = query.separation;

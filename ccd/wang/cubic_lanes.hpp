@@ -46,7 +46,7 @@ struct CriticalTimes {
   typename Real::Mask any, two;
   Real first, second;
 };
-/// find_critical_times() in lanes.
+/// Finds, in each lane, the critical times of a cubic as find_critical_times() does.
 template <class Real>
 CriticalTimes<Real> critical_times(const Cubic<Real>& F) {
   using Mask = typename Real::Mask;

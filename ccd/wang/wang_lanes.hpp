@@ -33,8 +33,8 @@ class WangLanes {
   WangLanes(const QueryRows& queries, Verdict* verdicts, const std::optional<double>& given)
       : queries_(queries), verdicts_(verdicts), given_(given) {}
 
-  /// Decides the queries of the kind `kind`. Returns the number of queries of this kind, decided or not. The
-  /// batch has at most `wang_batch_size` queries.
+  /// Decides the queries of the kind `kind`. Returns the number of queries of this kind, both decided and
+  /// undecided. The batch has at most `wang_batch_size` queries.
   std::size_t run() {
     Rows of_kind;
     for (std::size_t row = 0; row < queries_.size(); ++row) of_kind.add_if(queries_.kind(row) == kind, row);

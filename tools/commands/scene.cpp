@@ -276,8 +276,8 @@ int run(SceneOptions options) {
   std::string few = options.plan_only ? "" : what_few_collisions_show(record.statistics());
   std::string longer;
   if (!few.empty() && !stop.is_requested()) {
-    // Whether each subject uses each pair's own bound. Any other bound may be too small for the queries around
-    // the pairs.
+    // Whether each subject uses each pair's own bound. Any other bound may be too small for the queries
+    // around the pairs.
     const bool is_own_bound = options.bounds == SceneOptions().bounds;
     try {
       const auto family = family_around(options, scene);

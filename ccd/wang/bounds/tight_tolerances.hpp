@@ -69,8 +69,8 @@ struct EdgeTolerances {
 };
 
 // For B = 1 and a given S: the smallest ψ, the smallest D², and the λ² that gives this D². D² has two lower
-// bounds ("VE: edge becomes short" and "VE: weight" in `constraints`). As λ² grows, the first one, λ²/4 +
-// (ψ/λ + S)², first falls and then rises, since its slope grows. The second one falls. So the larger of the
+// bounds ("VE: edge becomes short" and "VE: weight" in `constraints`). As λ² grows, the first bound, λ²/4 +
+// (ψ/λ + S)², first falls and then rises, since its slope grows. The second bound falls. So the larger of the
 // two first falls and then rises.
 constexpr EdgeTolerances edge_tolerances(const RoundingErrors<double>& errors, double S, double margin) {
   const double psi = errors.least_psi * margin;
