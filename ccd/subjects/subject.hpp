@@ -35,7 +35,7 @@ constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_c
 /// Whether times of this sort are not after t*.
 constexpr bool is_lower_bound(TimeSort sort) { return sort >= TimeSort::lower_bound; }
 
-/// What a subject assumes about the queries that it is asked. The subject is not judged on queries that
+/// The assumptions of a subject about the queries that it is asked. The subject is not judged on queries that
 /// violate an assumption. A field that is 0 or false stands for no assumption.
 struct Contract {
   bool apart_at_start = false;  ///< the distance of the primitives at t = 0 exceeds `apart_by` and h

@@ -32,8 +32,8 @@ struct Known {
   [[nodiscard]] bool is_set_aside() const { return slow >= most_slow; }
 };
 
-/// What is known about each subject from the cases that have been counted so far. Many threads may use a
-/// SoFar at once.
+/// Keeps what the cases that have been counted so far show about each subject. Many threads may use a SoFar at
+/// once.
 class SoFar {
  public:
   [[nodiscard]] Known of(const CountsKey& key) const {

@@ -134,9 +134,8 @@ void Trials::ask(OnItsWay& item, const Batch& batch) {
   }
 }
 
-/// What is known about each subject before the next trial of a piece of work: what was known about the
-/// subjects when the work began, plus the number of queries over the time limit in the earlier trials of this
-/// work.
+/// Returns the knowledge about each subject before the next trial of a piece of work: the knowledge when the
+/// work began, plus the number of queries over the time limit in the earlier trials of this work.
 std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) const {
   std::vector<Known> known;
   for (const auto& subject : subjects_) {

@@ -13,7 +13,8 @@
 
 namespace nearmiss::certified {
 
-/// What is computed about the two primitives at one time. All lengths are in the unit of VertexDifferences.
+/// The results of the search about the two primitives at one time. All lengths are in the unit of
+/// VertexDifferences.
 struct Moment {
   bool is_precise = false;   ///< whether this was computed in the Real of DistanceSearch, not in double
   ClosestFeatures features;  ///< the parts of the primitives that contain the closest points, uncertified

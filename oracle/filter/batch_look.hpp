@@ -70,10 +70,10 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
   return {all & (!opposed), opposed};
 }
 
-/// What look() finds in a part [lo, hi] of the step, in each lane. The bits of `outcome` have these meanings.
-/// `before`: [lo, left] must be examined next; `middle`: [left, right]; `behind`: [right, hi]. `bracket`:
-/// there is a collision in [left, right]. `precise`: F has a root in [left, right], but double precision is
-/// not enough to find the signs of the weights there.
+/// The result of look() for a part [lo, hi] of the step, in each lane. The bits of `outcome` have these
+/// meanings. `before`: [lo, left] must be examined next; `middle`: [left, right]; `behind`: [right, hi].
+/// `bracket`: there is a collision in [left, right]. `precise`: F has a root in [left, right], but double
+/// precision is not enough to find the signs of the weights there.
 template <int n>
 struct Look {
   enum : std::int64_t {

@@ -25,7 +25,7 @@ namespace nearmiss {
 /// among the farthest apart, or a time that is among the earliest or the latest relative to t*, the exact
 /// earliest time.
 struct FarCase {
-  /// Of a false positive: its Outcome::ratio, in the unit Counts::distance_unit. Of a time: |time - t*|.
+  /// For a false positive, its Outcome::ratio in the unit Counts::distance_unit. For a time, |time - t*|.
   double ratio = 0;
   Query query;
   /// "family:seed:index" or, for a query from a file, the name of the file and the line

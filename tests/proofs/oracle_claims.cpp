@@ -171,7 +171,7 @@ Inputs draw_words(Random& random, double size) {
   Inputs in;
   for (const char* name : {"a", "b"}) {
     in[name] = size * random.uniform(1, 2);
-    in[std::string(name) + ".lo"] = size * 0x1p-53 * random.uniform(-1, 1);
+    in[std::string(name) + ".lo"] = size * u * random.uniform(-1, 1);
   }
   return in;
 }
@@ -284,7 +284,7 @@ void add_others(std::vector<OracleClaim>& claims) {
        proven_word_product, seen_word_product, [](Random& random) { return draw_words(random, 1); }});
   add({"roundoff, of sums of double words", bernstein, "2^-103", roundoff<DoubleWord> * 0x1p103,
        "3u² / (1 - 4u): Joldes, Muller, Popescu 2017, theorem 3.1; in Coq by Muller, Rideau 2022",
-       [] { return 3 / (1 - 4 * 0x1p-53) / 8; }, seen_word_sum, draw_sum});
+       [] { return 3 / (1 - 4 * u) / 8; }, seen_word_sum, draw_sum});
   add({"product_underflow, of double words", bernstein, "2^-1074", product_underflow<DoubleWord>,
        "argument beside it", [] { return 5.0; }, seen_word_underflow,
        [](Random& random) { return draw_words(random, std::ldexp(1.0, random.integer(-520, -480))); }});

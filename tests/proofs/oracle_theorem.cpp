@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/proofs/factors.hpp"
+#include "tests/proofs/numbers.hpp"
 
 namespace nearmiss::proofs {
 
@@ -75,7 +76,6 @@ std::set<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& p
   std::set<Monomial> monomials;
   for (const BoundTerms* shares : {&needs.values, &needs.leaves, &needs.underflows, &needs.bound_underflows})
     for (const auto& [monomial, each] : *shares) monomials.insert(monomial);
-  constexpr double u = 0x1p-53;
   std::set<std::string> scripts;
   for (const Monomial& monomial : monomials) {
     Factors factors;

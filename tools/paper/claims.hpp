@@ -27,8 +27,8 @@ std::string_view name(Judgement judgement);
 std::optional<Judgement> judgement_named(std::string_view name);
 
 struct Measured {
-  /// What was measured, with all figures; for holds_with_condition, also the condition under which the claim
-  /// holds.
+  /// Says what was measured, with all figures. For holds_with_condition, also states the condition under which
+  /// the claim holds.
   std::string text;
   Judgement judgement = Judgement::not_measured;
 };
