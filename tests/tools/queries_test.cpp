@@ -213,8 +213,10 @@ TEST_F(SeparationOption, ZeroAsksForContact) {
     const std::string fuzz = "fuzz --subject wang --family uniform --cases 100 ";
     return json_of(0, fuzz + option)["subjects"]["wang"]["vt"]["collisions"];
   };
-  for (const std::string zero : {"0", "0x0p+0"})
+  for (const std::string zero : {"0", "0x0p+0"}) {
     EXPECT_EQ(collisions("--separation " + zero), collisions(""));
+    expect_code(0, "bench --subject wang --family uniform --queries 5 --runs 1 --separation " + zero);
+  }
 }
 
 TEST_F(SeparationOption, ShrinkKeepsALateTime) {

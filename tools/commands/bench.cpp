@@ -160,8 +160,9 @@ void expect_separations_of(const std::vector<Input>& inputs, const std::vector<F
   for (const Input& input : inputs)
     for (const auto& [kind, queries] : input.queries)
       if (any_separation(queries)) separated.insert(kind);
+  const bool all_for_contact = options.separation.is_given() && options.separation.of_families().empty();
   for (const Family& family : families)
-    if (options.separation.is_given() || family.has_separation)
+    if (options.separation.is_given() ? !all_for_contact : family.has_separation)
       separated.insert(kinds_asked(family).begin(), kinds_asked(family).end());
   if (!separated.empty()) expect_separations(subjects, std::vector(separated.begin(), separated.end()));
 }
