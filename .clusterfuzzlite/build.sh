@@ -30,8 +30,8 @@ for target in "$@"; do
     cp fuzz/libfuzzer/reader_target.dict "$OUT/$name.dict"
   fi
   cp "fuzz/libfuzzer/${kind}_target.options" "$OUT/$name.options"
-  # Copies the target's libraries, except those of glibc: the machine that runs the target may lack
-  # all others.
+  # Copies the libraries that the target needs. The machine that runs the target may have only the
+  # libraries of glibc, so these are not copied.
   ldd "$build/$name" | awk '$2 == "=>" && $1 !~ /^lib(c|m|dl|rt|pthread|resolv)\.so/ {print $3}' |
     xargs cp -Lt "$OUT/lib"
 done

@@ -22,8 +22,8 @@ namespace nearmiss::tools {
 /// The largest number of queries that an option takes.
 inline constexpr std::uint64_t most_queries = std::uint64_t{1} << 62;
 
-/// Adds an option whose value is a whole number from `least` to `most`. --help shows the present content of
-/// `value` as the default. `value` must live as long as the command.
+/// Adds an option whose value is a whole number from `least` to `most`. --help shows the value that `value`
+/// has at this call as the default. `value` must live as long as the command.
 template <class Integer>
 CLI::Option* add_count_option(CLI::App& command, const std::string& name, Integer& value, std::uint64_t least,
                               std::uint64_t most, const std::string& description) {
@@ -106,9 +106,9 @@ struct QueryInput {
 /// Throws Error if printable() would change a subject's text.
 void expect_printable(const std::string& subject);
 
-/// Makes the subjects that `texts` denote (fuzz/subjects/subjects.hpp), with distinct names. Each plug-in
-/// runs in a process of its own. Throws Error for an unknown subject, and for a text that expect_printable()
-/// refuses.
+/// Makes the subjects that `texts` denote (fuzz/subjects/subjects.hpp), and gives them distinct names. Each
+/// plug-in runs in a process of its own. Throws Error for an unknown subject, and for a text that
+/// expect_printable() refuses.
 Subjects make_subjects(const std::vector<std::string>& texts, const isolation::PluginLimits& limits = {},
                        std::optional<double> given_bound = std::nullopt);
 

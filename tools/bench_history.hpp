@@ -36,7 +36,8 @@ struct TimedRow {
 /// One run of nearmiss bench.
 struct BenchRun {
   RunInfo about;  ///< the commit that was timed, the compiler, its flags and the processor
-  /// For each row, the time per query in each pass, in ns. The time is NaN for a pass without an answer.
+  /// For each row, the time per query in each pass over the row's queries, in ns. The time is NaN for a pass
+  /// without an answer.
   std::map<TimedRow, std::vector<double>> times;
 };
 

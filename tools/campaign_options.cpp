@@ -161,8 +161,8 @@ std::string names_of_kinds_asked(const CampaignPlan& plan) {
   return names_of_kinds(sum, ",");
 }
 
-/// A digest of the content of the named files, and of all files below the named folders. Ignores names that
-/// are neither.
+/// A digest of the content of the named files, and of all files below the named folders. Ignores a name that
+/// is neither a file nor a folder.
 template <class Paths>
 std::string digest_of(const Paths& paths) {
   namespace fs = std::filesystem;

@@ -8,7 +8,7 @@ namespace nearmiss::tools {
 /// Exit codes, on which scripts depend. They are the same for every subcommand that shows results.
 inline constexpr int exit_fine = 0;
 /// The shown results have a failure that is among usual_failures() (reports/statistics/failure.hpp) or that
-/// --fail-on names. The failure counts even if the baseline has the same failure.
+/// --fail-on names. A failure counts even if the baseline has the same failure.
 inline constexpr int exit_found = 1;
 inline constexpr int exit_bad_input = 2;  ///< the usage or the input is bad, or the output cannot be written
 inline constexpr int exit_interrupted = 130;

@@ -30,7 +30,7 @@ attend() {
   ! $interrupted || return 130
   "$@" &
   attended=$!
-  if $interrupted; then on_interrupt; fi  # the signal came before the process was known
+  if $interrupted; then on_interrupt; fi  # the signal came before `attended` was set
   await "$attended" || code=$?
   attended=
   return $code

@@ -140,8 +140,9 @@ void expect_values(int argc, char** argv) {
   }
 }
 
-/// Chooses the vector instructions by the number of doubles that they compute at once. `variable` is this
-/// number, the value of the environment variable NEARMISS_LANES; if it is null or empty, does nothing.
+/// Chooses the vector instructions by the number of doubles that they compute at once. `variable` has this
+/// number; it is the value of the environment variable NEARMISS_LANES. If `variable` is null or empty, does
+/// nothing.
 void choose_lanes(const char* variable) {
   if (variable == nullptr || *variable == '\0') return;
   try {
@@ -189,9 +190,9 @@ bool is_about(std::string_view message, const std::string& option) {
   return at != message.npos && (end == message.size() || !is_of_name(message[end]));
 }
 
-/// Throws Error with the file, the line and the message if the configuration file is to blame: if it could
-/// not be read, or if a message is about an option that is set in this file, and not by an argument. Returns
-/// otherwise.
+/// If the configuration file is to blame for `message`, throws Error with the file, the line and the message;
+/// otherwise, returns. The file is to blame if it could not be read, or if the message is about an option
+/// that is set in the file, and not by an argument.
 void refuse_configuration(const CLI::App& app, const nearmiss::tools::ConfigurationFile& configuration,
                           const std::string& message, int argc, char** argv) {
   if (app.get_config_ptr()->count() == 0) return;
@@ -262,9 +263,9 @@ int run(int argc, char** argv) {
 }
 
 /// Keeps freed memory for later use. By default, the C library returns freed memory to the system, which
-/// takes a tenth of the time of a fast campaign. Setting the threshold for returning memory has a side
-/// effect: the size from which a block gets a mapping of its own (mmap) no longer adapts to the program.
-/// Therefore sets this size to its maximum, too.
+/// takes a tenth of the time of a fast campaign. If a program sets the threshold for returning memory, the C
+/// library stops adapting another size: the size from which a block of memory gets a mapping of its own
+/// (mmap). Therefore this function sets the other size, too, to its maximum.
 void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 64 << 20);  // bytes of each thread's memory
   mallopt(M_MMAP_THRESHOLD, 32 << 20);

@@ -22,7 +22,7 @@ struct OptionFile {
   std::string_view option;
 };
 
-/// Throws Error if two options name the same file.
+/// Throws Error if both options name the same file.
 void expect_different(const OptionFile& one, const OptionFile& other);
 
 /// Throws Error if it is already clear that `file`, which an option names, cannot be written, or if `file` is

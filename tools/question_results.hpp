@@ -10,8 +10,9 @@
 
 namespace nearmiss::tools {
 
-/// A table with a row for each subject and kind; lines about subjects that are right in one range of a
-/// property of the queries, such as an angle, and fail elsewhere; and the simplest findings.
+/// The text begins with a table, which has a row for each subject and kind. Lines follow about subjects that
+/// are right in one range of a property of the queries, such as an angle, and fail elsewhere. At the end, the
+/// text has the simplest findings.
 std::string text_of(const QuestionResults<DistanceQuestion>& results);
 std::string text_of(const QuestionResults<StepQuestion>& results);
 

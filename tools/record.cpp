@@ -33,9 +33,9 @@ namespace {
 
 constexpr std::size_t printed_if_verbose = 10;  // findings
 constexpr auto save_interval = std::chrono::milliseconds(500);
-// Long, because each attempt to save waits for the lock of the store.
+// This interval is long, because each attempt to save waits for the lock of the store.
 constexpr auto when_locked = std::chrono::seconds(5);
-// Long, because a save of shrunk findings writes all findings.
+// This interval is long, because a save of shrunk findings writes all findings.
 constexpr auto save_shrunk_interval = std::chrono::seconds(5);
 
 std::string cpu_model() {
@@ -255,7 +255,7 @@ void Record::print_results(std::FILE* text, const Campaign& campaign, bool inter
   fmt::print(text, "{}", simulation_tables(statistics_));
   const auto findings = campaign.findings();
   print_broken(text, findings, statistics_);
-  // The ways to fail that have been printed. Only one finding of each way to fail is printed.
+  // The signatures of the findings that have been printed. Only one finding of each signature is printed.
   std::set<Signature> printed;
   for (const Finding& each : findings) {
     if (!shows_findings || printed.size() == (verbose ? printed_if_verbose : 1)) break;

@@ -40,9 +40,9 @@ RunInfo run_info(const std::string& command);
 /// The facts on which a run's times depend: the compiler, its flags and the processor.
 RunInfo environment();
 
-/// Lines that a finding's subject wrote to standard error, such as "stderr: no licence"; at most `most`
-/// lines. They are the last lines that are not blank, and the first two calls of the subject's stack that are
-/// not in the C library. A line is cut to at most 96 bytes.
+/// At most `most` lines that the subject of a finding wrote to standard error, such as "stderr: no licence".
+/// These are the last lines that are not blank and, if the subject crashed, the first two calls on its stack
+/// that are not in the C library. A line is cut to at most 96 bytes.
 std::vector<std::string> stderr_lines(const Finding& finding, std::size_t most);
 
 /// Keeps the results of a command, saves them in a store if there is one, and reports them at the end.
@@ -100,7 +100,7 @@ class Record {
   bool saved_ = false;    // whether the store has saved results
   bool unsaved_ = false;  // whether any result was added since the last save
   Statistics statistics_;
-  // For each announcement that a subject is too slow, the key of the counters of this subject.
+  // The command has announced that some subjects are too slow. This set has the keys of their counters.
   std::set<CountsKey> set_aside_;
   std::vector<Finding> findings_;
   std::size_t saved_findings_ = 0;

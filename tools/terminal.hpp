@@ -16,8 +16,8 @@ void occupy_standard_streams();
 /// From now on, SIGINT, SIGTERM and SIGHUP end the program at once, with the exit code of an interrupt.
 /// Writing to a pipe without a reader, or beyond the limit of a file's size, becomes an error instead of a
 /// signal. A command that has called stop_on_signals() calls this function when everything is saved, because
-/// its output may wait forever for a reader. Then the program still ignores a signal that comes within two
-/// seconds of the signal that set the flag.
+/// its output may wait forever for a reader. Even after this call, the program ignores a signal that comes
+/// within two seconds of the signal that set the flag of stop_on_signals().
 void end_on_signals();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP set a flag, so that the program can save its results; a second

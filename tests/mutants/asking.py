@@ -47,7 +47,7 @@ def culprit(group, ended):
 
 def run_steps(group, layer):
     """Runs steps of one executable, with a limit far above the times that the steps take without a
-    mutant. This is a limit of wall time, because a limit of CPU time changes how the kernel
+    mutant. The limit is one of wall time, because a limit of CPU time would change how the kernel
     measures CPU time."""
     return run_tests(
         group[0].group,

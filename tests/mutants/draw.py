@@ -90,7 +90,8 @@ def in_turn(lists):
 
 
 def chosen(mutations, seed, count):
-    """Up to `count` mutants, taken from the operators in turn, with at most one mutant of each line."""
+    """Up to `count` mutants, with at most one mutant of each line. Takes a mutant of each operator
+    in turn."""
     by_operator = {}
     for each in sorted(mutations, key=lambda each: sha(str(seed), each.identity)):
         by_operator.setdefault(each.operator, []).append(each)

@@ -93,7 +93,7 @@ def measured(step):
 
 
 def state():
-    """A hash of the executables and plug-ins that the tests use, as far as they are built."""
+    """A hash of those executables and plug-ins that the tests use and that are built."""
     digest = hashlib.sha256()
     files = [executable(group) for group in EXECUTABLES]
     files += [BUILD / 'nearmiss', BUILD / 'nearmiss-worker']

@@ -62,8 +62,8 @@ CcdClaim ours(std::string_view name, std::string_view how, const std::function<P
   return audited(name, row_of(name).section, how, problem);
 }
 
-/// The claim that `bound` is large enough. It replaces the quoted constant of a row of the audit, which is
-/// missing or too small.
+/// The claim that `bound` is large enough. The audit has a row whose quoted constant is missing or too small,
+/// and `bound` replaces this constant.
 CcdClaim replaced(std::string_view name, std::string_view constant, double bound, std::string_view how,
                   const std::function<Problem()>& problem) {
   const RoundingConstant& row = row_of(name);

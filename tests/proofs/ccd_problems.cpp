@@ -101,8 +101,8 @@ Problem configuration(Reach reach, ConfigurationPart part) {
     std::ignore = configuration.inside();
     problem.degree = 4;
   }
-  // The last comparison is that of the third weight. For a triangle, this weight is computed from the other
-  // two.
+  // The last comparison is that of the height test or, for `inside`, that of the third weight. For a
+  // triangle, the third weight is computed from the other two.
   choose(problem, problem.trace->branches().back());
   return problem;
 }

@@ -14,7 +14,7 @@ namespace nearmiss::proofs {
 /// The effort and the seed of a search.
 struct ClimbEffort {
   int rounds;
-  /// The number of steps of each round; before these steps, the round makes steps / 4 random draws.
+  /// The number of steps in each round. Before these steps, a round makes steps / 4 random draws.
   int steps;
   std::uint64_t seed = 1;
 };

@@ -27,8 +27,8 @@ struct Term {
 /// A sum of terms. Without roundings and underflows, the sum is the value in exact arithmetic.
 using Expansion = std::vector<Term>;
 
-/// The errors of the operations. The error of an operation is given as the number of roundings that the
-/// operation counts as.
+/// How many roundings an operation counts as. A quotient may count as several; any other inexact operation
+/// counts as one.
 struct Roundings {
   int quotient = 1;
 };
@@ -53,7 +53,7 @@ inline const std::string steepest = "steepest";
 Expansion expand(const Traced& expression, const Roundings& arithmetic = in_double);
 Expansion expand(const Program& program, int result, const Roundings& arithmetic = in_double);
 
-/// coefficient · monomial is a bound of the sum of the magnitudes of all terms with the same monomial.
+/// A bound for all terms with one monomial: the sum of their magnitudes is at most coefficient · monomial.
 /// `roundings` is the largest number of roundings among these terms.
 struct BoundTerm {
   Rational coefficient;

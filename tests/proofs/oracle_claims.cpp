@@ -29,8 +29,8 @@ double seen_leaves(const Inputs& inputs) {
   return ratio(abs(exact - rounded), rounded * Rational(u));
 }
 
-/// The error of p q that the errors ep and eq of its factors cause, divided by the term of `cross_bound` for
-/// this error.
+/// The error that the product p q has because its factors have the errors ep and eq, divided by the term of
+/// `cross_bound` for this error.
 double seen_growth(const Inputs& in) {
   const Rational p(in.at("p"));
   const Rational q(in.at("q"));
@@ -88,8 +88,8 @@ double seen_slope_rounding(const Inputs& in) {
   return ratio(abs(Rational(derivative(F).at(t)) - exact), Rational(F.largest()) * Rational(u));
 }
 
-/// The error of the derivative at t = 0 that comes from the errors of the coefficients, divided by the error
-/// of a coefficient.
+/// The part of the derivative's error at t = 0 that comes from the errors of the coefficients, divided by the
+/// error of a coefficient.
 double seen_slope_growth(const Inputs& in) { return 3 * seen_slope(in); }
 
 /// The error of v + S (d - t), in units of u (|v| + |S (d - t)|). v + S (d - t) is the value of F at a double
@@ -106,8 +106,8 @@ double seen_secant(const Inputs& in) {
                (Rational(std::abs(v)) + abs(Rational(S) * exact_g)) * Rational(u));
 }
 
-/// The error of the derivative of a cubic with tiny coefficients, which is an error by underflow, in units of
-/// the smallest double.
+/// The error of the derivative of a cubic with tiny coefficients, in units of the smallest double. This error
+/// comes from underflow.
 double seen_slope_underflow(const Inputs& in) {
   const Bernstein<double, 4> F{{in.at("b0"), in.at("b1"), in.at("b2"), in.at("b3")}, 0};
   if (F.largest() > 0x1p-1060) return 0;

@@ -49,8 +49,8 @@ double proven_growth(int roundings) {
 }
 
 /// How many times H, the largest error of a product by underflow, must be added to a bound to cover underflow
-/// in the value and in the bound itself. The code computes `more` products for the bound in addition to those
-/// of the template.
+/// in the value and in the bound itself. For the bound, the code computes `more` products that the template
+/// does not have.
 template <class Real>
 double proven_underflow(Results results, Leaves leaves, int more) {
   const ValuePrecision precision = precision_of<Real>();
@@ -201,9 +201,9 @@ double proven_slope_growth() {
       factors.script(quotient(grown, factors.product(roundings_of_slope_bound, u)) + " in ?"));
 }
 
-// v + S g is the value of F at a distance g from a time. The term S g is rounded three times. The term R g of
-// the bound (neighbours.hpp) loses up to four roundings, and R is at most |S|. The bound's term for these
-// seven roundings is itself rounded at most six times.
+// v + S g is the value of F at a distance g from a time. The term S g is rounded three times. Up to four
+// roundings can make the term R g of the bound (neighbours.hpp) smaller, and R is at most |S|. The bound's
+// term that covers these seven roundings is itself rounded at most six times.
 double proven_secant_rounding() {
   Factors factors;
   const std::string missed =

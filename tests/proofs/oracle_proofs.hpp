@@ -1,27 +1,27 @@
 // For each rounding constant of oracle/, the least value that is proven to be enough, in the unit of the
-// constant. The letters are those of oracle/filter/step_part.hpp. U: the relative error of an operation (u:
-// of double). w and M: sums of the magnitudes of products, for a weight and for F, the coplanarity cubic. l
-// and L: bounds of the errors of a weight and of F that come from the errors of the vectors. H: the largest
-// error of a product by underflow.
+// constant. The letters are those of oracle/filter/step_part.hpp. U is the largest relative error of an
+// operation; for operations in double, it is called u. w and M are sums of the magnitudes of products: w for
+// a weight, and M for F, the coplanarity cubic. l and L bound those parts of the errors of a weight and of F
+// that come from the errors of the vectors. H is the largest error of a product by underflow.
 #pragma once
 
 #include "tests/proofs/oracle_results.hpp"
 
 namespace nearmiss::proofs {
 
-/// The multiple of U w (for weights) or U M (for F) that covers the rounding errors of all results if the
-/// components of the vectors are exact.
+/// The factor by which U w (for weights) or U M (for F) must be multiplied to cover the rounding errors of
+/// all results, if the components of the vectors are exact.
 template <class Real>
 double proven_rounding(Results results);
-/// The multiple of u w or u M that covers the errors of products of `leaves` components, each of which has
-/// been rounded once.
+/// The factor by which u w or u M must be multiplied to cover the errors of products of `leaves` components,
+/// each of which has been rounded once.
 double proven_leaves(int leaves, Results results);
 /// The factor by which l and L must be multiplied in a bound, to compensate for the roundings of the bound.
 double proven_leaf_growth();
 /// How many times H must be added to a bound to cover underflow.
 double proven_underflow_products();
-/// The largest magnitude of those intermediate results that have the given degree in the components, divided
-/// by the computed w or M, which may be rounded down.
+/// The largest magnitude of the intermediate results that have the given degree in the components, divided by
+/// the computed w or M. The computed w or M may have been rounded down.
 double proven_headroom(Results results, int degree);
 
 /// The factor that compensates for the roundings in `error_near`.

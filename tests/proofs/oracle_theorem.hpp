@@ -10,7 +10,7 @@
 
 namespace nearmiss::proofs {
 
-/// The arithmetic in which a value is computed. Its bound is computed in double.
+/// The arithmetic in which a value is computed. The bound of the value's error is always computed in double.
 struct ValuePrecision {
   double roundoff;   ///< U
   double underflow;  ///< H, the largest error of a product by underflow, in units of the smallest double
@@ -54,8 +54,8 @@ Needs needs_of(const Bounded& bounded, const ValuePrecision& precision);
 /// monomial proves that the monomial's share of the bound is at least the monomial's share of the error.
 /// Monomials with the same coefficients and roundings have the same script. A share of the error is
 ///   coefficient |Π (1 + δ) - Π (1 + λ)| + (share of the leaves' given errors) + (share of underflow).
-/// Π (1 + δ) goes over the roundings of a term. Π (1 + λ) goes over its leaves if these are rounded once, and
-/// is 1 otherwise.
+/// Π (1 + δ) has a factor for each rounding of a term. Π (1 + λ) has a factor for each leaf of the term if
+/// the leaves are rounded once; otherwise, it is 1.
 std::set<std::string> scripts_of(const Bounded& bounded, const ValuePrecision& precision);
 
 }  // namespace nearmiss::proofs

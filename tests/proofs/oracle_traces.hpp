@@ -52,7 +52,8 @@ struct BoundOf<proofs::TracedWord> {
 
 namespace nearmiss::proofs {
 
-/// How the computed components of a vector, the leaves of all expressions, differ from the exact components.
+/// The components of the vectors are the leaves of all expressions. The enumerator says how much the computed
+/// components differ from the exact components.
 enum class Leaves {
   exact,         ///< no difference
   rounded_once,  ///< a factor of 1 ± U

@@ -96,7 +96,8 @@ Number result_of(const Instruction& one, const std::vector<Number>& results,
 }
 
 /// The results of all instructions in the arithmetic of `Number`: rounded for floating-point numbers, exact
-/// for rational ones. The results in `given` are taken from there, not computed.
+/// for rational ones. If `given` has the result of an instruction, the function takes this result instead of
+/// computing it.
 template <class Number>
 std::vector<Number> evaluate(const Program& program, const std::map<std::string, Number>& inputs,
                              const Number& epsilon, const std::map<int, Number>& given = {}) {

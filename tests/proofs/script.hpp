@@ -32,8 +32,8 @@ class Script {
 
   /// Writes an instruction and all instructions that it depends on, down to the leaves.
   void write(int index);
-  /// Defines d as the error of the difference left - right of the results of two instructions, which are
-  /// already written. The subtraction itself is exact.
+  /// Defines d as the error of left - right, the difference of the results of two instructions. The script
+  /// must already have these instructions. The subtraction itself is exact.
   void difference(int left, int right);
 
   [[nodiscard]] std::string computed(int index) const;

@@ -1,6 +1,6 @@
 // The full formulas of the solvers' proofs, for B = 1 and operations with relative errors of at most u.
-// Comments in ccd/ have these formulas to first order, and the code has closed forms that are at least as
-// large.
+// Comments in ccd/ have the same formulas to first order in u. The code of ccd/ has closed forms, which are
+// at least as large as the full formulas.
 #pragma once
 
 namespace nearmiss::proofs {
@@ -55,7 +55,8 @@ struct EdgeBounds {
   Number a, b, c, error;
 };
 
-/// The bounds for rounded or exact vectors. k_a, k_b and k_c are the numbers of roundings of a, b and c.
+/// The bounds for rounded or exact vectors. k_a, k_b and k_c say how many roundings a, b and c have; these
+/// numbers depend on whether the vectors are rounded.
 template <class Number>
 EdgeBounds<Number> edge_bounds(const Number& u, int k_a, int k_b, int k_c) {
   return {growth(u, k_a) * Number(2) + Number(2), growth(u, k_b) * Number(6) + Number(6),
@@ -70,8 +71,8 @@ Number edge_difference(const Number& u, const EdgeBounds<Number>& bounds) {
   return (bounds.error + bounds.c * errors.constant) * Number(6);
 }
 
-/// The bound of F's rise (vertex_edge.hpp) for a threshold S: half of r, plus the rate of F times the error
-/// of a time.
+/// The bound of F's rise (vertex_edge.hpp) for a threshold S. The bound is half of r, plus F's rate of change
+/// times the error of a time.
 template <class Number>
 Number edge_rise(const Number& u, const EdgeBounds<Number>& bounds, const Number& S) {
   const QuadraticErrors<Number> errors(u, false);

@@ -66,7 +66,7 @@ Distances distances(const QuadraticCoefficients& p, int bits) {
   return all;
 }
 
-/// All numbers of this many bits with exponents from `lowest` to `highest`, and 0.
+/// All positive and negative numbers of this many bits with exponents from `lowest` to `highest`; also 0.
 std::vector<double> all_numbers(int bits, int lowest, int highest) {
   std::vector<double> all{0};
   for (int exponent = lowest; exponent <= highest; ++exponent)

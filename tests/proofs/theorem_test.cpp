@@ -113,8 +113,8 @@ TEST(ProofsTheorem, HasTheRulesOfThePaper) {
   EXPECT_TRUE(std::isinf((x / x).error()));
 }
 
-// The operations in ccd/ are the operations that the paper counts: applied to ccd/, the theorem gives the
-// same sizes and numbers of roundings as the paper states.
+// The operations in ccd/ are the operations that the paper counts: if the theorem is applied to ccd/, it
+// gives the sizes and the numbers of roundings that the paper states.
 TEST(ProofsTheorem, FindsThePapersBoundsInOurOperations) {
   using enum ConfigurationPart;
   EXPECT_EQ(exact(exact_vertices(Reach::near, VertexPart::xv)).left, TheoremBound(3, 3));
@@ -142,7 +142,7 @@ TEST(ProofsTheorem, DerivesTheConstantsOfTheAudit) {
   EXPECT_GT(derived, 20);
 }
 
-// The proofs in solver_orders_test.cpp and in comments of ccd/ begin with these numbers of roundings.
+// The proofs in solver_orders_test.cpp and in comments of ccd/ start from these numbers of roundings.
 TEST(ProofsTheorem, CountsTheRoundingsOfTheSolversCoefficients) {
   EXPECT_EQ(rounded(cubic(ee, CubicPart::a)), TheoremBound(6, 15));
   EXPECT_EQ(rounded(cubic(ee, CubicPart::b)), TheoremBound(18, 15));

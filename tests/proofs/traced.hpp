@@ -72,9 +72,9 @@ class Trace {
 };
 
 /// A scalar for the templates of ccd/ and oracle/. Each operation makes a node. The trace records comparisons
-/// of expressions that contain inputs; the inputs' samples decide them. `max`, `min` and `clamp`, found by
-/// argument-dependent lookup, make nodes and compare nothing, whereas std::max itself would make a
-/// comparison, which the trace would record.
+/// of expressions that contain inputs; the inputs' samples decide these comparisons. `max`, `min` and `clamp`
+/// are found by argument-dependent lookup. They make nodes and compare nothing, whereas std::max itself would
+/// make a comparison, which the trace would record.
 class Traced {
  public:
   Traced(double constant = 0)

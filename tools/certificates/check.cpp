@@ -28,8 +28,8 @@ double exact_double(const mpq_class& value) {
   return same;
 }
 
-/// Removes characters from the front of `rest`, as long as they are in `characters`, and returns the removed
-/// characters.
+/// Removes characters from the front of `rest`, up to the first character that is not in `characters`.
+/// Returns the removed characters.
 std::string_view take(std::string_view& rest, std::string_view characters) {
   const std::string_view taken = rest.substr(0, rest.find_first_not_of(characters));
   rest.remove_prefix(taken.size());
@@ -72,7 +72,7 @@ mpq_class number(std::string_view text) {
   return value;
 }
 
-/// The JSON library's message, without the name of the error that it begins with, such as
+/// The JSON library's message, without the error's name at its beginning, such as
 /// "[json.exception.parse_error.101] ".
 std::string message(const Json::exception& error) {
   const std::string_view text = error.what();
@@ -211,10 +211,10 @@ Query read_query(const Statement& statement) {
 }
 
 /// Proves dist > h on the piece: tests whether n . d > h |n| for all differences d of a vertex of A and a
-/// vertex of B, by comparing n . d with 0 and (n . d)^2 with h^2 n . n. Then n . d > h |n| also for the
-/// difference d of any point of A and any point of B, which is a convex combination of the tested
-/// differences. So n is not 0, and |d| > h, because n . d <= |n| |d|. If not strict, tests n . d > 0 and
-/// n . d >= h |n|, which proves |d| >= h. If open, the tests hold at all times before the end of the piece.
+/// vertex of B, by comparing n . d with 0 and (n . d)^2 with h^2 n . n. The difference d of any point of A
+/// and any point of B is a convex combination of the tested differences, so n . d > h |n| holds for this d,
+/// too. So n is not 0, and |d| > h, because n . d <= |n| |d|. If `strict` is false, tests n . d > 0 and n . d
+/// >= h |n|, which proves |d| >= h. If `open` is true, the tests cover all times of the piece except its end.
 void prove_piece(const Piece& piece, const Vector& n, const Query& query, bool strict, bool open) {
   const auto enough = [open](const Integers& b) { return b[0] > 0 && (open ? b.min() >= 0 : b.min() > 0); };
   const Integers limit = query.h == 0 ? Integers() : mpz_class(query.h * query.h) * dot(n, n);

@@ -1,7 +1,7 @@
 """Check certificates of continuous collision detection (CCD) in exact arithmetic.
 
 The primitives A and B of a query are convex hulls of vertices. A vertex is at (1 - t) s + t e; x
-lists s of all vertices, then e of all. For h >= 0, a certificate proves one claim:
+lists s of all vertices, then e of all vertices. For h >= 0, a certificate proves one claim:
   apart: their distance is > h ("strict": false: >= h) at all t in [from, to] ("open": [from, to))
   meets: their distance is <= h ("strict": true: < h) at some t in [from, to].
 The functions apart, at, bracket and edge say why their tests suffice. On [p, q], a polynomial f of
@@ -130,7 +130,7 @@ def at(s, vectors, body):
 
 def bracket(s, vectors, body):
     """At a time in [p, q], F = n . (x2 - x0) is zero, so all vertices are in one plane. At this
-    time, all weights / n . n are positive, and are barycentric coordinates of a common point."""
+    time, the weights divided by n . n are positive: barycentric coordinates of a common point."""
     p, q = numbers(body['bracket'], [2])
     require(s.h == 0 and s.from_ <= p < q <= s.to, 'h is not 0, or not from <= p < q <= to')
     *x, h = forms(vectors, p, q)

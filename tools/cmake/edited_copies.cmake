@@ -13,10 +13,13 @@
 #   - the text at another place of the same edit: the second of three places in FILE with this text
 #   + the text that replaces it
 #
-# For edit 17, the copy has (makes(17) ? (EDITED) : (TEXT)) in place of an expression TEXT, and if
-# (makes(17)) { EDITED } else { TEXT } in place of a statement TEXT, which ends with ; or }. Edits are
-# numbered from 1. The text of one edit may contain the whole text of another; texts must not overlap in any
-# other way.
+# For edit 17, the copy has one of these two texts in place of TEXT:
+#
+#   (makes(17) ? (EDITED) : (TEXT))             if TEXT is an expression
+#   if (makes(17)) { EDITED } else { TEXT }     if TEXT is a statement, which ends with ; or }
+#
+# Edits are numbered from 1. The text of one edit may contain the whole text of another edit. Texts of edits
+# must not overlap in any other way.
 
 if(NOT nearmiss_unedited)
   set(nearmiss_unedited ${PROJECT_SOURCE_DIR})  # the tree whose headers are copied

@@ -4,9 +4,10 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Headers are installed in include/nearmiss, except the headers of the templates, which are installed in
-# include/nearmiss/ccd, without further folders. Installed headers include "nearmiss/ccd/query.hpp" in place
-# of "ccd/query/query.hpp", because the compiler might look for the latter in a user's folder ccd.
+# Headers are installed in include/nearmiss. Only the headers of the templates are installed in
+# include/nearmiss/ccd, which has no further folders. Installed headers include "nearmiss/ccd/query.hpp" in
+# place of "ccd/query/query.hpp", because the compiler might look for "ccd/query/query.hpp" in a user's folder
+# ccd.
 set(query arithmetic error kind query scalar)
 set(wang advance basic cubic motion pair_bound plane_culling proximity quadratic tolerances ve_culling verdict
   vertex_edge vertex_vertex wang wang_time within)
@@ -89,6 +90,6 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/nearmissConfig.cmake.in 
   PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(${written}/nearmissConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT licence)
-foreach(component ccd-dev oracle-dev trial-dev)  # users may install any of them alone
+foreach(component ccd-dev oracle-dev trial-dev)  # users may install only one of them
   install(FILES ${written}/nearmissConfig.cmake ${written}/nearmissConfigVersion.cmake DESTINATION ${config} COMPONENT ${component})
 endforeach()

@@ -36,13 +36,14 @@ endif()
 # Our code joins bools by | to save a branch, although clang advises against it.
 set(nearmiss_joined_bools $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
 
-# Warnings are errors for developers only: whoever just builds nearmiss may have a compiler with more
+# Warnings are errors only for developers. A user who just builds nearmiss may have a compiler that gives more
 # warnings.
 if("tests" IN_LIST NEARMISS_COMPONENTS)
   set(nearmiss_werror -Werror)
 endif()
 
-# In a unity build (several files compiled as one), a name may hide an internal name of another file.
+# In a unity build, which compiles several files as one, a name in one file may hide an internal name of
+# another file.
 set(nearmiss_shadow -Wshadow)
 if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   set(nearmiss_shadow -Wshadow=local)
@@ -112,9 +113,9 @@ function(nearmiss_uses_cgal target)
   # The compiler must know that interval arithmetic changes the rounding mode.
   target_compile_options(${target} PRIVATE -frounding-math)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT NEARMISS_CLANG_TIDY)  # clang-tidy does not know the options
-    # g++ 12 gives two false warnings: of a use after free in CGAL's inlined reference-counted handles, and
-    # of a mismatched delete in CGAL's Mpzf, which first resets its pointer to the address that new[]
-    # returned.
+    # g++ 12 gives two false warnings. It warns of a use after free in CGAL's inlined reference-counted
+    # handles. It also warns of a mismatched delete in CGAL's Mpzf, although Mpzf first resets its pointer to
+    # the address that new[] returned.
     target_compile_options(${target} PRIVATE -Wno-use-after-free -Wno-mismatched-new-delete)
   endif()
 endfunction()

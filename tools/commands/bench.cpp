@@ -60,8 +60,8 @@ std::string named(std::string name, const SeparationOption& separation) {
 }
 
 /// Makes an input, on all processors. For each kind that is asked, the input has the first `count` queries of
-/// a family that pass the box test: the boxes of the moving primitives overlap. Throws Error if fewer than
-/// one query in 1000 passes, and Stopped if the user ends the command.
+/// a family that pass the box test. A query passes the box test if the boxes that its primitives sweep
+/// overlap. Throws Error if fewer than one query in 1000 passes, and Stopped if the user ends the command.
 Input family_input(const Family& family, std::uint64_t count, const SeparationOption& separation,
                    const Stop& stop) {
   Input input{named(family.name, separation), {}};
@@ -153,7 +153,7 @@ void expect_room(const BenchOptions& options, const std::vector<Family>& familie
   isolation::expect_memory(fmt::format("--queries {}", options.queries), bytes + most);
 }
 
-/// Finds the kinds of all queries that have a separation, and calls expect_separations() for these kinds.
+/// Finds the kinds of those queries that have a separation, and calls expect_separations() for these kinds.
 void expect_separations_of(const std::vector<Input>& inputs, const std::vector<Family>& families,
                            const BenchOptions& options, const Subjects& subjects) {
   std::set<Kind> separated;

@@ -61,9 +61,9 @@ class NewFiles {
   std::map<fs::path, NewFile> files_;
 };
 
-/// The file that holds a query, in the format "plain", "csv" or "json", and the lines of that file that
-/// belong to the query. In the formats "plain" and "csv", these lines include the exact truth. Throws Error
-/// if the format cannot hold the query.
+/// For a query in the format "plain", "csv" or "json": the file that holds the query, and the lines of this
+/// file that belong to the query. In the formats "plain" and "csv", these lines include the exact truth.
+/// Throws Error if the format cannot hold the query.
 std::pair<fs::path, std::string> converted(const std::string& format, const Case& each, bool truth) {
   const Query& query = each.query;
   if (format == "plain")

@@ -41,9 +41,9 @@ bool is_plain(const Query& query) {
          std::all_of(query.x.begin(), query.x.end(), [](double c) { return std::abs(c) <= 10; });
 }
 
-/// Asks a subject random queries until the subject misses a collision whose shrunk query is easy to draw. The
-/// queries are from ordinary families or, if `in_ordinary_families` is false, from all other families. In
-/// ordinary families, the missed query must be ordinary, too.
+/// Asks a subject random queries until the subject misses a collision whose shrunk query is easy to draw. If
+/// `in_ordinary_families` is true, the queries are from ordinary families, and the missed query must be
+/// ordinary, too. Otherwise, the queries are from all other families.
 struct PlainMiss {
   std::uint64_t queries = 0, misses = 0;
   Finding finding;  ///< with the shrunk query

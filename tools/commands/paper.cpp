@@ -244,7 +244,8 @@ int run(const PaperOptions& options) {
   double done = 0;
   try {
     for (const Claim* claim : which) {
-      // Again for each claim, because each command of a claim calls end_on_signals() at its end.
+      // Calls stop_on_signals() again for each claim, because each command of a claim ends with
+      // end_on_signals().
       stop_on_signals();
       progress.show(std::string(claim->name), done++ / static_cast<double>(which.size()));
       Results results;

@@ -187,8 +187,8 @@ Hunt hunt_with_libfuzzer(const PowerOptions& options, const std::string& subject
 }
 
 /// The time that a hunt took, and the number of cases that it decided, until it found a failure:
-/// "0.12 s  12,345". After these numbers, "+" marks a late time, and "*" a refuted bound; a miss has no mark.
-/// If the hunt found no failure, returns "-".
+/// "0.12 s  12,345". If the failure is a late time, "+" follows these numbers; if it is a refuted bound, "*"
+/// follows. A miss has no mark. If the hunt found no failure, returns "-".
 std::string cell(const Hunt& hunt) {
   if (!hunt.failure) return "-";
   const std::string_view mark = *hunt.failure == name(Finding::What::refuted_bound) ? "*"

@@ -58,17 +58,19 @@ std::string show(const Enclosure& enclosure) {
   return fmt::format(" {} {}", to_hex(enclosure.lo), to_hex(enclosure.hi));
 }
 
-/// Returns "1" if the primitives touch or come within the separation, otherwise "0". As in the library, a
-/// smallest distance of exactly the separation gives "1". Returns "-" if a method that decides all collisions
-/// (Claim::complete) cannot tell, or if another method, such as root parity, gives no answer to the query.
+/// Returns "1" if the primitives touch or come within the separation, otherwise "0". If the smallest distance
+/// is exactly the separation, returns "1", as the library does. Returns "-" if a method that decides all
+/// collisions (Claim::complete) cannot tell, or if another method, such as root parity, gives no answer to
+/// the query.
 const char* show(const Answer& answer, Claim claim) {
   const auto said = answer.at_most ? answer.at_most : answer.collision;
   if (!said && (claim == Claim::complete || !answer.is_answer())) return "-";
   return said.value_or(false) ? "1" : "0";
 }
 
-/// The answer of a method: of the oracle as trials use it ("filtered"), of one exact method (its name), or of
-/// all exact methods ("all"). Throws Disagreement for "all" if the answers of these methods differ.
+/// The answer of the method that `method` names. "filtered" is the oracle as trials use it; "all" stands for
+/// all exact methods; any other name is that of one exact method. For "all", throws Disagreement if the
+/// answers of the exact methods differ.
 const char* answer_by(const std::string& method, const Query& query) {
   if (method == filtered) return show(to_answer(query, decide(query)), Claim::complete);
   if (method == all_methods) {

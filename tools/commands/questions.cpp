@@ -31,8 +31,8 @@ struct QuestionsOptions {
 
 constexpr const char* usual_time = "20s";
 
-/// The differences between the two commands: their texts, and whether a command asks queries of the families
-/// whose primitives are at rest.
+/// The differences between the two commands: their texts, and whether a command asks queries of those
+/// families in which the primitives are at rest.
 struct Command {
   const char *name, *help;
   const char* function;   ///< the function of the plug-in interface that answers the question

@@ -187,7 +187,7 @@ std::string what_few_collisions_show(const Statistics& statistics) {
 }
 
 /// The family of queries around the scene's pairs; nothing if the scene has no pairs. Throws Stopped if the
-/// pairs are too many to collect them in a few seconds.
+/// scene has too many pairs to collect in a few seconds.
 std::optional<Family> family_around(const SceneOptions& options, const Scene& scene) {
   constexpr std::chrono::seconds patience(5);
   Stop until(interrupted());

@@ -59,8 +59,9 @@ Finding find_failure(const Case& each, const Subject& subject) {
                   each.name, subject.name()));
 }
 
-/// The subject in a wrapper. If `query` keeps the subject's contract, the wrapper asks the subject only
-/// queries that keep the contract; otherwise, only queries that break it.
+/// Makes the subject, in a wrapper that restricts which queries the subject is asked. If `query` keeps the
+/// subject's contract, the wrapper asks only queries that keep the contract. Otherwise, it asks only queries
+/// that break the contract.
 std::unique_ptr<Subject> made_for(const Query& query, const ShrinkOptions& options) {
   auto sides = keep_contract(make_any_subject(options.subject, std::nullopt, options.limits.limits()), true);
   const Subject& subject = *sides.front();

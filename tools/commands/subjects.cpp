@@ -67,10 +67,10 @@ void describe(const std::string& name) {
   for (const auto& subject : make_any_subjects(name)) print(*subject);
 }
 
-/// Prints a line for each pair of a subject and a libFuzzer target that can hunt it. The line has the target,
-/// and the subject in the form that the target takes; for a published CCD, this is the path of its plug-in.
-/// Prints nothing for a program, because libFuzzer sees no coverage of another process. Throws Error if two
-/// subjects have the same name.
+/// Prints a line for each pair of a subject and a libFuzzer target that can hunt for the subject's failures.
+/// The line has the target, and the subject in the form that the target takes. For a published CCD, this form
+/// is the path of the CCD's plug-in. Prints nothing for a program, because libFuzzer sees no coverage of
+/// another process. Throws Error if two subjects have the same name.
 void print_targets(const std::vector<std::string>& texts) {
   std::vector<std::unique_ptr<Subject>> subjects;
   for (const std::string& text : texts) {

@@ -82,8 +82,8 @@ void expect_different(const std::vector<std::string>& values) {
                                 excerpt(at->second), excerpt(value)));
 }
 
-/// The subjects. A subject with KEY=* occurs once for each value, with the value in place of the star. Throws
-/// Error if no subject has a star.
+/// Returns the subjects, but replaces each subject with KEY=* by one subject for each value, with the value
+/// in place of the star. Throws Error if no subject has a star.
 std::vector<std::string> with_values(const std::vector<std::string>& subjects,
                                      const std::vector<std::string>& values) {
   constexpr std::string_view any = "=*";

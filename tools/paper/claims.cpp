@@ -98,7 +98,7 @@ BothKinds pairs_at(double speed, const Stop& stop) {
           count_random_pairs(Kind::edge_edge, speed, some_pairs, 1, stop)};
 }
 
-/// The largest ratio of run times for which the paper's claim of a small overhead holds. This largest ratio
+/// The paper's claim of a small overhead holds if the ratio of run times is at most this number. The number
 /// leaves room for the noise of a busy machine.
 constexpr double small_overhead = 1.1;
 
@@ -121,8 +121,8 @@ std::uint64_t simulated(const ordered_json& results, std::string_view scene, con
   return sum;
 }
 
-/// By how much a counter is larger with wang than with exact. `parts` has the increase in each scene, as a
-/// fraction of the counter with exact. `text` has all increases in words.
+/// The increases of a counter in simulations with wang, compared with simulations with exact. `parts` has the
+/// increase in each scene, as a fraction of the counter with exact. `text` has all increases in words.
 struct Changes {
   std::vector<double> parts;
   std::string text;

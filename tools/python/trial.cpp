@@ -145,7 +145,7 @@ TrialResult decide_all(const CampaignPlan& plan, const Subjects& subjects, const
   return result;
 }
 
-/// For each way to fail (signature) and each class of queries, shrinks the first `of_each` findings.
+/// For each signature (a way to fail) and each class of queries, shrinks the first `of_each` findings.
 void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint64_t of_each,
             const Stop& stop) {
   const FindingShrinker shrinker(pointers_to(subjects), stop, limits_in_campaign);
@@ -157,8 +157,8 @@ void shrink(std::vector<Finding>& findings, const Subjects& subjects, std::uint6
   }
 }
 
-/// The largest ratio of a false positive's distance to the bound on this distance. If a bound is 0, `counts`
-/// has the largest double as the ratio; this function then returns infinity.
+/// The largest ratio of a false positive's distance to the bound on this distance. If the bound is 0,
+/// `counts` has the largest double as the ratio, and this function returns infinity.
 double farthest(const Counts& counts) {
   const double ratio = counts.max_ratio();
   return ratio == std::numeric_limits<double>::max() ? std::numeric_limits<double>::infinity() : ratio;

@@ -72,7 +72,7 @@ class Finding:
         return ax
 
     def _places(self) -> NDArray[np.float64]:
-        """The vertices at two times, (2, v, 3): t = 0, and contact (without contact, t = 1)."""
+        """The vertices at t = 0 and at contact, (2, v, 3). Without contact, at t = 0 and t = 1."""
         end = float(earliest_time(self.kind, self.x, self.separation).lo)
         t = end if 0 < end <= 1 else 1.0
         with np.errstate(all='ignore'):

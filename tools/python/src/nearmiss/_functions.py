@@ -1,4 +1,4 @@
-"""The functions over arrays of queries, which __init__.py describes, and record()."""
+"""The functions that take arrays of queries, and record(). __init__.py describes the arrays."""
 
 import atexit
 import enum
@@ -151,7 +151,7 @@ def smallest_distance(
     )
 
 
-_PROOFS = ('decision', 'time', 'distance')  # the index of each is its number in the C interface
+_PROOFS = ('decision', 'time', 'distance')  # the index of a name is its number in the C interface
 
 
 def certificate(

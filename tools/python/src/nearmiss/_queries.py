@@ -136,8 +136,8 @@ def not_negative(name: str, value: Any) -> float:
 
 
 def at_most_1(name: str, value: Any) -> float:
-    """Returns the value of an option as a double up to 1. Raises a TypeError or ValueError with
-    the option's name for any other value."""
+    """Returns the value of an option as a double that is at most 1. Raises a TypeError or
+    ValueError with the option's name for any other value."""
     return _option(name, value, 'a double that is at most 1', lambda number: number <= 1)
 
 
@@ -205,7 +205,7 @@ def _vertices(values: ArrayLike, name: str) -> Coordinates:
 
 
 def _checked_pairs(values: ArrayLike, vertices_of_pair: int, vertices: int) -> NDArray[np.int32]:
-    """The pairs after a check, as a copy, so that no other thread can change the numbers after the check."""
+    """Returns a checked copy of the pairs. No other thread can change the numbers in this copy."""
     _expect_no_mask(values, 'pairs')
     pairs = np.array(values)
     if pairs.ndim != 2 or pairs.shape[1] != vertices_of_pair:

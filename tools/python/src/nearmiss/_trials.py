@@ -111,11 +111,11 @@ class Counts:
     collisions: int = 0  # true collisions among the queries that it answered
     missed: int = 0  # collisions that it did not report
     false_positives: int = 0  # queries that it reported and that are no collisions
-    late: int = 0  # times after the earliest time, although promised as lower bounds
-    committed: int = 0  # times that are not late, although the rounded step to them has contact
+    late: int = 0  # times after the earliest time, although the subject promised lower bounds
+    committed: int = 0  # times that are not late, but the step to them has contact after rounding
     no_answer: int = 0  # queries without an answer, such as a collision without a time
     beyond_contract: int = 0  # queries that it was not asked, because its contract excludes them
-    farthest: float = 0.0  # largest distance of a false positive / its bound (otherwise wang's)
+    farthest: float = 0.0  # largest ratio of a false positive's distance to its bound or wang's
 
     def __add__(self, other: 'Counts') -> 'Counts':
         sums = {name: value + vars(other)[name] for name, value in vars(self).items()}
