@@ -10,7 +10,7 @@ namespace nearmiss {
 
 /// The path of a file or folder that belongs to nearmiss. The file or folder is in this program's folder, in
 /// NEARMISS_INSTALLED if nearmiss is installed, or in NEARMISS_BUILT if this program is in a build folder.
-/// fuzz/CMakeLists.txt sets these paths, relative to the program's folder.
+/// fuzz/CMakeLists.txt sets the last two paths, relative to the program's folder.
 inline std::string path_beside(std::string_view name) {
   std::error_code unknown;
   const auto here = std::filesystem::read_symlink("/proc/self/exe", unknown).parent_path();

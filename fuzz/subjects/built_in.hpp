@@ -11,8 +11,8 @@
 namespace nearmiss {
 
 /// Lists the built-in subjects: those of ccd/, the exact subjects, `adaptive`, `parity` and
-/// `wang:dd-normals`. The list omits the defects, which `defects()` lists, and the other subjects
-/// "NAME:SCALAR".
+/// `wang:dd-normals`. The list omits the defects, which `defects()` lists, and all subjects "NAME:SCALAR"
+/// other than `wang:dd-normals`.
 std::vector<SubjectInfo> built_in_subjects();
 
 /// Makes a built-in subject from its name, from "NAME:SCALAR" (ladder/scalars.hpp) or from "defect:NAME"

@@ -22,9 +22,10 @@ bool is_apart_at_start(const Query& query, double by) {
   return distance_exceeds(at_rest, std::max(by, query.separation));
 }
 
-/// F is the volume of the vertices. Returns true if each Bernstein coefficient of F is larger in magnitude
-/// than its rounding error can be, and the coefficients change sign at most once. If the function returns
-/// true, F has no root at t = 0 or t = 1, and at most one root in between, counted with multiplicity.
+/// Let F be the volume of the four vertices, as a polynomial in t. Returns true if each Bernstein coefficient
+/// of F is larger in magnitude than the bound on its rounding error, and the coefficients change sign at most
+/// once. In this case, F has no root at t = 0 or t = 1, and at most one root in between, counted with
+/// multiplicity.
 bool surely_has_at_most_one_root(const Query& query) {
   const auto whole = certified::whole_step<double>(coordinates(query));
   const auto F = certified::coplanarity(whole.a, whole.b, whole.c);
@@ -48,7 +49,8 @@ bool is_on_grid(const Query& query, double grid) {
   return std::all_of(query.x.begin(), query.x.end(), [&](double c) { return std::fmod(c, grid) == 0; });
 }
 
-/// The squared distance of points p and q; points 0 to 3 are x0 to x3 at t = 0, and 4 to 7 at t = 1.
+/// The squared distance of points p and q. Points 0 to 3 are the vertices x0 to x3 at t = 0, and points 4 to
+/// 7 are the same vertices at t = 1.
 Number squared_distance(const Query& query, std::size_t p, std::size_t q) {
   Number sum = 0;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -58,7 +58,7 @@ class Contracted final : public ForwardingSubject {
   }
 
  private:
-  /// The queries of a batch about which the subject is asked.
+  /// The part of a batch that the subject is asked.
   struct Part {
     std::vector<std::size_t> places;  ///< in the batch
     std::vector<Query> queries;

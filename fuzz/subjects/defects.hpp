@@ -30,19 +30,19 @@ struct NamedTolerance {
   std::string_view name;
   double Tolerances<double>::*value;
   int dimension;  ///< the tolerance is a length raised to this power
-  bool accepts;   ///< whether a larger value accepts more pairs; otherwise, the tolerance excludes degenerate
-                  ///< primitives
+  bool accepts;   ///< whether a larger value lets the CCD accept more pairs; if false, the tolerance excludes
+                  ///< degenerate primitives
 };
 std::span<const NamedTolerance> named_tolerances();
 
 /// The name of the defect that multiplies a tolerance by a factor, such as "defect:mu*0.5".
 std::string scaled_tolerance(std::string_view tolerance, double factor);
 
-/// Makes a defective subject from its name; a tolerance may have any factor >= 0. The defective subject
-/// promises the same distance bound and the same sort of time as the sound subject. If the defect changes a
-/// tolerance, needed_tolerance() gives the factor that loosens this tolerance enough for the subject to
-/// report the query. Returns null for a name that does not start with "defect:". Throws Error for an unknown
-/// defect.
+/// Makes a defective subject from its name. In the name of a tolerance's defect, the factor may be any number
+/// that is at least 0. The defective subject promises the same distance bound and the same sort of time as
+/// the sound subject. If the defect changes a tolerance, needed_tolerance() gives the factor that loosens
+/// this tolerance enough for the subject to report the query. Returns null for a name that does not start
+/// with "defect:". Throws Error for an unknown defect.
 std::unique_ptr<Subject> try_make_defect(std::string_view name);
 
 }  // namespace nearmiss

@@ -27,8 +27,8 @@ constexpr std::array entries{
     Entry{{"exact-decision", "the same as exact, without the time"}, true, false},
 };
 
-/// The oracle as a subject. When it decides a single query, it omits the box test, which a simulation makes
-/// before it asks a CCD.
+/// The oracle as a subject. For a single query, this subject omits the box test, because a simulation makes
+/// this test before it asks a CCD.
 class ExactSubject final : public Subject {
  public:
   explicit ExactSubject(const Entry& entry) : entry_(entry), name_(entry.info.name) {}

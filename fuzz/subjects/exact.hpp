@@ -19,8 +19,9 @@ namespace nearmiss {
 std::span<const SubjectInfo> exact_subjects();
 
 /// The kinds of queries that a campaign asks by default: the kinds that at least one subject other than the
-/// exact ones can decide; vt and ee if all subjects are exact. A kind whose queries have separations can be
-/// decided only by subjects that take separations.
+/// exact subjects can decide. If there is no such kind, for example because all subjects are exact, the
+/// result is vt and ee. If the queries of a kind have separations, only subjects that take separations can
+/// decide this kind.
 std::vector<Kind> kinds_to_ask(std::span<const std::unique_ptr<Subject>> subjects,
                                const std::function<bool(Kind)>& has_separations);
 
@@ -32,7 +33,7 @@ inline constexpr SubjectInfo parity_info{
 /// the oracle's root parity (oracle/parity/parity.hpp). That method is exact, but cannot distinguish an even
 /// number of roots from no root. Therefore the contract of `parity` excludes queries with several roots or a
 /// double root, and queries whose vertices are always coplanar. `parity` decides no vv and ve queries. Within
-/// its contract, it has no misses and no false positives, so its distance bound is 0.
+/// its contract, `parity` has no misses and no false positives, so its distance bound is 0.
 std::unique_ptr<Subject> try_make_exact(std::string_view name);
 
 }  // namespace nearmiss

@@ -10,9 +10,9 @@
 
 namespace nearmiss {
 
-/// Passes all questions on to another subject, which must outlive this object. To change how that subject is
-/// asked, a derived class overrides three functions, none of which calls another: decide() for batches, which
-/// also decides single queries; decide_timed(); and time_each().
+/// Passes all questions on to another subject, which must outlive this object. A derived class that changes
+/// how that subject is asked overrides three functions, because none of them calls another: decide() for
+/// batches, which also decides single queries; decide_timed(); and time_each().
 class ForwardingSubject : public BatchSubject {
  public:
   ForwardingSubject(std::string name, const Subject& to) : BatchSubject(std::move(name)), to_(to) {}
@@ -62,8 +62,8 @@ class ForwardingSubject : public BatchSubject {
   const Subject& to_;
 };
 
-/// The subject at the end of a chain of forwarding subjects; `subject` itself if it forwards its questions to
-/// no other subject.
+/// The subject at the end of a chain of forwarding subjects; `subject` itself if `subject` is not a
+/// forwarding subject.
 inline const Subject& innermost(const Subject& subject) {
   const auto* const forwarding = dynamic_cast<const ForwardingSubject*>(&subject);
   return forwarding == nullptr ? subject : innermost(forwarding->to());

@@ -9,7 +9,8 @@
 
 namespace nearmiss {
 
-/// Whether a text may be the NAME in NAME=SUBJECT: a letter, then letters, digits, '_', '.' and '-'.
+/// Whether a text may be the NAME in NAME=SUBJECT. A NAME is a letter, then letters, digits, '_', '.' and
+/// '-'.
 bool is_given_name(std::string_view text);
 
 /// A subject on the command line: [NAME=]SUBJECT. The text has a NAME if it contains '=' before any ':' or

@@ -39,7 +39,8 @@ bool is_exact(const Recorded& each) {
   return true;
 }
 
-/// Whether rounding the positions at tmax leaves the decision of the query that ends at tmax unchanged.
+/// Whether the query that ends at tmax has the same decision with and without rounding of the positions at
+/// tmax.
 bool is_same_decision(const Recorded& each) {
   auto earliest = earliest_time(each.query);
   return earliest_time(each.asked()).has_value() == (earliest && earliest->enclosure().hi <= each.tmax);
@@ -51,7 +52,7 @@ double part_of(double time, double tmax) {
   return std::fma(part, tmax, -time) > 0 ? std::nextafter(part, 0.0) : part;
 }
 
-/// The answer of a record in the form in which it can be judged; nothing if it cannot be judged.
+/// The answer of a record in the form in which it is judged; nothing if it cannot be judged.
 std::optional<RecordedAnswer> judgeable(const std::filesystem::path& file, const Recorded& each) {
   const bool has_time = each.answer == NEARMISS_COLLISION && !std::isnan(each.time);
   RecordedAnswer judged{
@@ -127,7 +128,8 @@ std::vector<RecordedPass> in_passes(std::vector<RecordedAnswer> answers) {
     Answers known;
     std::vector<RecordedAnswer> answers;
   };
-  // The first element has the passes of answers in double, the second has those of answers in float.
+  // The first element has the passes of the answers in double, and the second has the passes of the answers
+  // in float.
   std::array<std::vector<Made>, 2> made;
   for (RecordedAnswer& each : answers) {
     auto& passes = made[each.in_float ? 1 : 0];

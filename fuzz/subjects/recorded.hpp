@@ -36,11 +36,12 @@ struct LeftOut {
 
 /// Passes to `sink`, in order, those records of a file that can be judged. The CCD was asked about the times
 /// up to the record's tmax. If tmax is 1, or if tmax < 1 and the answer is a collision with a time, the
-/// answer is judged on the recorded query: a time is late in the whole step if and only if it is late in the
-/// part up to tmax. (If the primitives collide only after tmax, a collision with a time counts as a right
-/// answer.) Any other answer is judged on the query that ends at tmax. If doubles cannot represent this
-/// query, the answer is judged on the rounded query, provided that tmax < 1 and that rounding does not change
-/// the decision. Throws Error as read_recording() does.
+/// answer is judged on the recorded query. This is right, because a time is too late for the whole step if
+/// and only if it is too late for the part up to tmax. (If the primitives collide only after tmax, a
+/// collision with a time counts as a right answer.) Any other answer is judged on the query that ends at
+/// tmax. If doubles cannot represent this query, the answer is judged on the rounded query, provided that
+/// tmax < 1 and that rounding does not change the decision; otherwise, the record is left out. Throws Error
+/// as read_recording() does.
 LeftOut read_judgeable(const std::filesystem::path& file, const std::function<void(RecordedAnswer&&)>& sink);
 
 /// Some recorded answers, no two of which contradict each other, and a subject that gives these answers under

@@ -48,9 +48,9 @@ std::string file_of_program(std::string_view program) {
   return files.empty() ? "" : files.back();
 }
 
-/// Makes a name from a plug-in's file: FILE, or FILE.DETECTOR if the detector was chosen. If this text cannot
-/// be a NAME, or is the name of a built-in subject, makes the name DETECTOR-FILE instead. Returns "" if there
-/// is no file, or if neither name can be used.
+/// Makes a name from a plug-in's file: FILE, or FILE.DETECTOR if the text of the subject chooses a detector.
+/// If this name cannot be a NAME, or is the name of a built-in subject, makes the name DETECTOR-FILE instead.
+/// Returns "" if there is no file, or if neither name can be used.
 std::string name_of_file(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   if (!plugin) return "";
@@ -66,8 +66,8 @@ std::string name_of_file(const Subject& subject) {
   return "";
 }
 
-/// Whether a plug-in or a renamed subject has the name of a built-in subject or of another published CCD. If
-/// it has, a merge of campaigns would add up the results of two subjects.
+/// Whether a plug-in or a renamed subject has the name of a built-in subject or of another published CCD.
+/// With such a name, a merge of campaigns would add up the results of two different subjects.
 bool takes_built_in_name(const Subject& subject) {
   const auto plugin = plugin_identity(subject);
   const bool is_renamed = !given_name(subject).empty();

@@ -37,18 +37,18 @@ std::vector<std::unique_ptr<Subject>> make_any_subjects(std::string_view text,
 /// they are ignored.
 bool is_built_in_name(std::string_view name);
 
-/// Renames plug-ins with equal names, such as versions of one CCD, and plug-ins with a built-in name. Each of
-/// these plug-ins that has no given NAME gets the name of its file: "v1" for ./v1.so, or "v1.DETECTOR" if the
-/// file has several detectors or the detector was chosen. Throws Error if two subjects still have the same
-/// name, or a plug-in still has a built-in name.
+/// Renames plug-ins with equal names, such as versions of one CCD, and plug-ins with a built-in name. Each
+/// such plug-in gets the name of its file, unless the command line gave it a NAME: "v1" for ./v1.so, or
+/// "v1.DETECTOR" if the file has several detectors or the detector was chosen. Throws Error if two subjects
+/// still have the same name, or a plug-in still has a built-in name.
 void tell_apart(std::vector<std::unique_ptr<Subject>>& subjects);
 
 /// The name that the subject has by itself, without a given NAME and without options; for a plug-in, this is
 /// the name that the plug-in exports.
 std::string own_name(const Subject& subject);
 
-/// The text [NAME=]SUBJECT that makes this subject under its present name, whatever other subjects there are,
-/// such as "v1=./v1.so". It has no NAME= if the subject was not renamed.
+/// The text [NAME=]SUBJECT, such as "v1=./v1.so", that makes this subject under its present name, even if the
+/// command line has other subjects. It has no NAME= if the subject was not renamed.
 std::string text_of(const Subject& subject);
 
 }  // namespace nearmiss

@@ -118,7 +118,7 @@ class IsolatedPlugin final : public DescribedSubject {
 
  private:
   /// The result of a call. The worker answered the first `count` queries of the call. If `failure` is set,
-  /// the worker failed on the query after these.
+  /// the worker failed on the next query.
   struct Done {
     const WorkerProcess* worker;  ///< null if no worker could be started
     std::size_t first;            ///< index of the call's first query among all queries
@@ -153,7 +153,7 @@ class IsolatedPlugin final : public DescribedSubject {
     });
   }
 
-  /// The fault code that a verdict has for a failure. Also stores in errors_ what the process wrote to
+  /// Returns the fault code of a failure, for the verdict. Also stores in errors_ what the process wrote to
   /// standard error.
   std::int32_t code_of(const WorkerFailure& failure) const {
     const std::int32_t code = has_text(failure.fault) ? texts_.number(failure.text) : failure.code;
@@ -167,9 +167,9 @@ class IsolatedPlugin final : public DescribedSubject {
     return is_asked(query.kind, query.separation > 0);
   }
 
-  /// The number of queries in the next batch, which begins with the first of these queries. All queries of a
-  /// batch have the same kind, the plug-in can decide either all of them or none, and a worker can receive
-  /// all of them in one call.
+  /// The number of queries in the batch with which `queries` begins. All queries of a batch have the same
+  /// kind, the plug-in can decide either all of them or none, and a worker can receive all of them in one
+  /// call.
   [[nodiscard]] std::size_t batch_at(std::span<const Query> queries) const {
     const Query& first = queries.front();
     std::size_t count = 1;
@@ -202,18 +202,18 @@ class IsolatedPlugin final : public DescribedSubject {
 
   /// Makes a worker perform the request for one batch. If a worker cannot be used any more, a new worker
   /// replaces it and continues after the query that failed. If several queries may have caused a failure,
-  /// they are asked again to find the one that is to blame: first in parts, then a failing part in smaller
-  /// parts, and at last query by query. If a part fails, but none of its own parts fails, as with a crash at
-  /// every 1000th query, the last query of the part is to blame. (If the part failed only because it took too
-  /// long, no query is to blame, because the part's queries together may need that much time.) `late` counts
-  /// the queries that exceeded the time limit.
+  /// these queries are asked again to find the query that is to blame: first in parts, then a failing part in
+  /// smaller parts, and at last query by query. If a part fails, but none of its smaller parts fails, as with
+  /// a crash at every 1000th query, the last query of the part is to blame. (If the part failed only because
+  /// it took too long, no query is to blame, because the part's queries together may need that much time.)
+  /// `late` counts the queries that exceeded the time limit.
   template <class Take>
   void perform_batch(std::unique_ptr<WorkerProcess>& worker, Request request, std::span<const Query> batch,
                      std::uint64_t& late, const Take& take_part) const {
     const bool is_decided = request != Request::distances && request != Request::steps;
     const bool is_asked = !is_decided || can_decide(batch.front());
     const auto size = static_cast<std::uint32_t>(batch.size());
-    // The queries of each call are a part of the queries of the call before it.
+    // The queries of each element are a part of the queries of the element before it.
     std::vector<Repeated> repeated;
     for (std::uint32_t first = 0; first < size;) {
       const bool is_left_out = !is_asked || (limits_.most_late != 0 && late >= limits_.most_late);
@@ -292,7 +292,7 @@ class IsolatedPlugin final : public DescribedSubject {
   }
 
   /// Starts a worker. Returns null if the plug-in cannot be loaded, or if the plug-in's description of itself
-  /// has changed. After three consecutive failed starts, this function starts no more workers.
+  /// has changed. After three failed starts in a row, this function starts no more workers.
   std::unique_ptr<WorkerProcess> start_worker() const {
     constexpr int most_failed = 3;
     if (failed_starts_ >= most_failed) return nullptr;
@@ -312,8 +312,8 @@ class IsolatedPlugin final : public DescribedSubject {
     }
   }
 
-  /// Starts a worker, as soon as the system can start the worker's processes. Throws NoWorker if the system
-  /// cannot start them within ten seconds.
+  /// Starts a worker. If the system cannot start the worker's processes, tries again for ten seconds, and
+  /// then throws NoWorker.
   std::unique_ptr<WorkerProcess> new_worker() const {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::seconds patience(10);
@@ -343,12 +343,12 @@ class IsolatedPlugin final : public DescribedSubject {
   PluginLimits limits_;
   mutable std::atomic<std::uint32_t> in_a_call_ = static_cast<std::uint32_t>(isolation::capacity_for(info()));
   mutable FaultTexts texts_;
-  mutable std::atomic<int> failed_starts_ = 0;  // number of consecutive failed starts
+  mutable std::atomic<int> failed_starts_ = 0;  // number of failed starts since the last successful start
   mutable std::mutex mutex_;
   mutable std::string why_not_loaded_;  // the reason for the last failed start
-  /// The text that the process wrote when a fault last happened to a query of a thread. The key has the
-  /// thread, the fault and the fault code. The thread reads the text right after the fault, so it gets the
-  /// text of the query that had the fault.
+  /// For each thread, fault and fault code: the text that the process wrote to standard error when this fault
+  /// last happened to a query of this thread. A thread reads the text right after a fault, so it gets the
+  /// text that belongs to this fault.
   mutable std::map<std::tuple<std::thread::id, Fault, std::int32_t>, std::string> errors_;
   mutable std::vector<std::unique_ptr<WorkerProcess>> idle_;
 };

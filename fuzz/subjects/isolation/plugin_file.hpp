@@ -34,9 +34,9 @@ class PluginFile {
   [[nodiscard]] const std::string& build_id() const { return build_id_; }
 
   /// Throws PluginChanged unless the path still leads to a file with the same bytes. Reads the file again
-  /// only in two cases: the file's stamp (inode, size, times) has changed; or, when the file was last read,
-  /// the stamp was so recent that a later change of the file might not change the stamp. Otherwise, the check
-  /// takes about a microsecond. Throws Stopped if `stop` is due during a reading.
+  /// only if the file's stamp (device, inode, size, times) has changed, or if the stamp was so recent at the
+  /// last reading that a later change of the file might not change the stamp. Otherwise, the check takes
+  /// about a microsecond. Throws Stopped if `stop` is due during a reading.
   void expect_unchanged(const Stop& stop) const;
 
  private:
@@ -66,7 +66,7 @@ class PluginFile {
 
   std::string path_, sha256_, build_id_;
   mutable std::mutex mutex_;
-  mutable Snapshot last_{};  ///< of the last reading
+  mutable Snapshot last_{};  ///< the state of the file at the last reading
 };
 
 /// The GNU build id of an ELF file, in hexadecimal; "" if the file has no build id.

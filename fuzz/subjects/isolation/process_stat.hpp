@@ -1,4 +1,4 @@
-// What /proc says about the memory of a process.
+// Reads from /proc how much memory a process has.
 #pragma once
 
 #include <cstdint>

@@ -44,8 +44,8 @@ std::uint64_t memory_left(const std::filesystem::path& root) {
   const std::string version_2 = "0::/";
   for (std::string line; std::getline(groups, line);) {
     if (!line.starts_with(version_2)) continue;
-    // A control group may have a limit of its own, and the limits of the groups that contain it apply to it,
-    // too.
+    // A control group may have a limit of its own. In addition, the limits of all groups that contain this
+    // group apply to it.
     std::filesystem::path within = line.substr(version_2.size());
     for (left = std::min(left, left_in(root / "sys/fs/cgroup")); !within.empty();
          within = within.parent_path())

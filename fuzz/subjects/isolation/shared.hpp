@@ -10,11 +10,12 @@
 
 namespace nearmiss::isolation {
 
-/// File descriptors with which a worker starts.
+// A worker starts with the following three open file descriptors.
+
 /// On this socket, nearmiss sends a `Call`; the worker replies with the number of this call.
 inline constexpr int reply_socket = 3;
-inline constexpr int status_socket = 4;  ///< the worker sends a `Status`
-inline constexpr int answers_memory = 5;
+inline constexpr int status_socket = 4;   ///< on this socket, the worker sends a `Status`
+inline constexpr int answers_memory = 5;  ///< the shared memory with the `SharedAnswers`
 
 /// The number of queries for which a worker always has memory. Some detectors want larger batches.
 inline constexpr std::size_t least_capacity = 2048;
@@ -22,9 +23,9 @@ inline constexpr std::size_t least_capacity = 2048;
 /// The reply to a call if the plug-in breaks the protocol, so that its answers cannot be used.
 inline constexpr std::uint64_t no_reply = ~std::uint64_t{0};
 
-/// What nearmiss asks a worker to do.
+/// The requests that nearmiss sends to a worker.
 enum class Request : std::uint8_t {
-  load,   ///< loads the plug-in; the first request
+  load,   ///< the first request: loads the plug-in
   share,  ///< the second request: maps the memory of batches (BatchMemory), whose files come with the call
   decide,
   decide_timed,  ///< decides, and measures the time of all queries together
@@ -34,8 +35,8 @@ enum class Request : std::uint8_t {
   steps,         ///< gives positions to which the vertices of the first query may safely move
 };
 
-/// A message that requests something about a batch of queries of one kind. The number distinguishes the
-/// call's answers from those of earlier calls.
+/// A message that sends a request about a batch of queries of one kind. The number distinguishes the answers
+/// to this call from the answers to earlier calls.
 struct Call {
   std::uint64_t number;
   Request request;
@@ -49,7 +50,7 @@ struct Call {
 /// supervisor when the process has ended.
 struct Status {
   std::int32_t code = 0;             ///< in the second message: si_code, which says how the process ended
-  std::int32_t status = 0;           ///< si_status
+  std::int32_t status = 0;           ///< in the second message: si_status, the exit code or the signal
   std::int32_t is_in_namespace = 0;  ///< in the first message: 1 if the process has its own PID namespace
   /// In the second message: the end of what the process wrote to standard error. The text ends at the first
   /// zero byte.
@@ -94,8 +95,8 @@ struct BatchMemory {
   }
 };
 
-/// DetectorInfo and Contract (ccd/) as plain numbers and characters, which are safe to read whatever the
-/// plug-in wrote.
+/// The content of DetectorInfo and Contract (ccd/) as plain numbers and characters, which nearmiss can read
+/// safely even if the plug-in has overwritten this memory.
 struct PluginDescription {
   std::array<char, 4096> name{};  ///< the name of the detector, with its options
   std::array<char, 256> version{}, about{};
@@ -110,7 +111,8 @@ struct PluginDescription {
 
 /// Memory that the worker writes. The plug-in, which runs in the worker's process, can write anything to it.
 struct SharedAnswers {
-  /// The query that is being asked; if several are asked together, the first of them.
+  /// The index of the query that is being asked; if several queries are asked together, the index of the
+  /// first one.
   std::atomic<std::uint32_t> current{0};
   std::atomic<std::uint32_t> calls{0};           ///< number of calls of the plug-in that were begun
   std::atomic<std::uint32_t> memory_refused{0};  ///< 1 if an allocation failed during the current query

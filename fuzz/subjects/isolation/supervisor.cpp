@@ -27,14 +27,15 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 /// Starts a program, and gives it some descriptors under given numbers. The program gets a session of its
-/// own, so that no terminal interrupts it, and the default reaction to every signal.
+/// own, so that no terminal interrupts it. The program starts with the default reaction to every signal, and
+/// blocks no signal.
 class Spawn {
  public:
   Spawn() {
     posix_spawn_file_actions_init(&actions_);
     posix_spawnattr_init(&attributes_);
     // Without this reset, the plug-in would also block or ignore each signal that the parent of nearmiss
-    // blocks or ignores. It might then behave differently, or end in a way that hides the cause.
+    // blocks or ignores. The plug-in might then behave differently, or end in a way that hides the cause.
     sigset_t signals;
     sigemptyset(&signals);
     posix_spawnattr_setsigmask(&attributes_, &signals);
@@ -102,8 +103,8 @@ void Supervisor::start(std::vector<std::string> arguments, const Files& files, c
   const std::string program = path_beside("nearmiss-worker");
   arguments.insert(arguments.begin(), {"nearmiss-worker", NEARMISS_WORKER_CODE});
   {
-    // At the end of this block, nearmiss closes its copies of these descriptors, because only the worker may
-    // keep them open.
+    // At the end of this block, `spawn` closes nearmiss's copies of the descriptors that it passes, because
+    // only the worker may keep these descriptors open.
     Spawn spawn;
     spawn.pass(files.replies, reply_socket);
     spawn.pass(status.theirs.number(), status_socket);
@@ -152,7 +153,7 @@ bool Supervisor::learns_process(const Stop& stop) {
 Supervisor::~Supervisor() {
   if (worker_ <= 0) return;
   dismiss();
-  // The worker has not begun to run, and may never notice that it is dismissed.
+  // If no `Status` has come, the worker may not have begun to run, and may never notice that it is dismissed.
   if (process_ <= 0) kill(worker_, SIGKILL);
   constexpr int tries = 2000;
   for (int i = 0; i < tries; ++i) {

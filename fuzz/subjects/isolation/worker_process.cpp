@@ -47,8 +47,8 @@ std::string lines_of(const Status& ended) {
   return lines;
 }
 
-// The computing time that the worker itself needs for a timed call, with empty caches on a busy machine. The
-// worker receives the call, asks Detector::empty() twice, and replies. In 1,500 calls on two busy cores, the
+// An allowance for the computing time that the worker itself needs for a timed call: the worker receives the
+// call, asks Detector::empty() twice, and replies. In 1,500 calls with empty caches on two busy cores, the
 // median was 20 microseconds, and the longest time was 1,500 microseconds.
 constexpr Duration of_call_itself = std::chrono::microseconds(500);
 constexpr double most_asked_twice = 2;  // once to warm up the caches, and once to measure the time
@@ -59,7 +59,7 @@ std::string name_of_batch(const DetectorInfo& info, std::size_t queries) {
   return fmt::format("{}: a batch of {} queries", info.name, queries);
 }
 
-/// Throws Error if `fault`, which says what is wrong with a plug-in's description, is not "".
+/// Throws Error if `fault` is not "". The text `fault` says what is wrong with a plug-in's description.
 void expect_no(const std::string& fault) {
   if (!fault.empty()) throw Error("the plug-in's process described " + fault);
 }
@@ -168,7 +168,8 @@ WorkerProcess::WorkerProcess(const PluginCode& file, const PluginLimits& limits)
   try {
     load(file.name());
   } catch (const Error&) {
-    // Throws if the file was changed, because this change is then the reason for the failure.
+    // If the file was changed, this call throws PluginChanged, because the change is then the reason for the
+    // failure.
     file.expect_unchanged(*limits_.stop);
     throw;
   }
@@ -199,9 +200,9 @@ void WorkerProcess::start(const std::string& plugin) {
 std::uint64_t WorkerProcess::data() const { return largest_data_of_tree(supervisor_.worker()); }
 
 void WorkerProcess::load(const std::string& plugin) {
-  // This process checks the memory, because the system's limit does not count data that is mapped over
-  // another mapping, as static data is. The limit here also leaves room for the worker itself, which may need
-  // a little more memory than it has now.
+  // This process checks the memory that the plug-in takes, because the system's limit does not count data
+  // that is mapped over another mapping, as static data is. The limit `most_data_` also leaves room for the
+  // worker itself, which may need a little more memory than it has now.
   constexpr std::uint64_t of_worker = 1 << 20;
   most_data_ = data() + of_worker + 2 * limits_.bytes;
   const Elapsed limit{limits_.loading, limits_.loading};
@@ -248,7 +249,7 @@ void WorkerProcess::reserve(std::size_t queries) {
   if (queries <= reserved_) return;
   const std::string what = name_of_batch(info_, queries);
   const std::uint64_t bytes = memory_of_batch(info_, queries, limits_);
-  // Only one worker at a time, so that two workers do not count on the same free memory.
+  // Only one worker at a time may reserve memory, so that two workers do not count on the same free memory.
   static std::mutex one_by_one;
   const std::lock_guard lock(one_by_one);
   expect_memory(what, bytes);
@@ -340,10 +341,11 @@ WorkerProcess::End WorkerProcess::sent(const Call& call, const Elapsed& of_query
   const bool looks = others_compute_ || (call.number + 1) % calls_between_looks == 0;
   if (others_compute_) look_at_others();
   auto next_look = steady_clock::now();
-  // The clock starts before the call is sent: the worker may be done before this process runs again.
+  // The clock starts before the call is sent, because the worker may be done before this process runs again.
   const Watch watch(*this);
   std::uint32_t calls = answers_->calls;
-  // Failure to send is ignored here: if the worker is dead or does not read, no reply comes.
+  // A failure to send is ignored here: if the worker is dead or does not read the call, no reply comes, and
+  // the loop below ends the call.
   send_call(call);
   std::optional<Watch> query_watch(watch);
   auto turn = steady_clock::now();
@@ -402,7 +404,7 @@ std::optional<WorkerProcess::End> WorkerProcess::end_of(std::uint64_t call) {
   return ends_within(milliseconds(1000)) ? End::dead : End::broken;
 }
 
-/// How the call ended, as far as the worker's socket shows it; nothing if the worker's socket has no message.
+/// How the call ended, according to the worker's socket; nothing if this socket has no message.
 std::optional<WorkerProcess::End> WorkerProcess::read_reply(std::uint64_t call) const {
   std::uint64_t reply = 0;
   std::array<char, sizeof reply + 1> message{};
@@ -418,7 +420,7 @@ std::optional<WorkerProcess::End> WorkerProcess::read_reply(std::uint64_t call) 
 bool WorkerProcess::ends_within(milliseconds time) {
   if (!is_ready(supervisor_.socket(), time)) return false;
   Status told{};
-  // If the socket has no message, the supervisor has ended, too.
+  // If the socket is closed and has no message, the supervisor itself has ended, too.
   if (recv(supervisor_.socket(), &told, sizeof told, MSG_DONTWAIT) == sizeof told) ended_ = told;
   return true;
 }

@@ -22,28 +22,30 @@
 namespace nearmiss::isolation {
 
 struct PluginLimits {
-  /// A query may take this much computing time, which is the sum over all threads and processes of the
-  /// plug-in. The wall-clock time may be ten times as long.
+  /// The computing time that a query may take, summed over all threads and processes of the plug-in. The
+  /// query may take ten times as much wall-clock time.
   Duration time{1};
   /// The memory, in bytes, that the plug-in may take in addition to the memory that it took while it was
   /// loaded. If this is 0, there is no limit.
   std::uint64_t bytes = std::uint64_t{1} << 30;
   Duration loading{30};   ///< the time that loading the plug-in may take
   Duration leaving{0.1};  ///< the time that closing the detector may take
-  /// Once this many queries of a call have exceeded the time limit, nearmiss does not ask the other queries
-  /// of the call. If this is 0, there is no limit.
+  /// Once this many queries of a call have exceeded the time limit, nearmiss does not ask the remaining
+  /// queries of the call. If this is 0, there is no limit.
   std::uint64_t most_late = 0;
   const Stop* stop = &Stop::never();  ///< when this stop is due, every function that waits throws Stopped
   /// Whether the plug-in gets a PID namespace of its own, if the system allows that.
   bool own_namespace = true;
 };
 
-/// The most queries that a worker gets at once: as many as the detector wants, but at least least_capacity.
+/// The largest number of queries that a worker gets at once: the number that the detector wants, but at least
+/// least_capacity.
 constexpr std::size_t capacity_for(const DetectorInfo& info) { return std::max(least_capacity, info.batch); }
 
-/// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries; if the worker
-/// does not take such a large batch, the bytes for the largest batch that it takes. Throws a TrialError if a
-/// batch of more than least_capacity queries needs more memory than the plug-in's limit.
+/// The bytes of memory that a worker shares with nearmiss for a batch of `queries` queries. If the worker
+/// does not take such a large batch, this function returns the bytes for the largest batch that the worker
+/// takes. Throws a TrialError if a batch of more than least_capacity queries needs more memory than the
+/// plug-in's limit.
 std::uint64_t memory_of_batch(const DetectorInfo& info, std::size_t queries, const PluginLimits& limits);
 
 /// A request about several queries may take this many times the limit of one query.
@@ -94,18 +96,19 @@ class WorkerProcess {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
 
   /// Makes the worker perform a request for a batch of at most capacity_for(info()) queries of one kind.
-  /// Returns the first failure; nothing if the worker answered all queries. Throws Stopped if the stop in the
-  /// limits is due, and TrialError if the system has too little memory for the batch.
+  /// Returns the first failure, or nothing if the worker answered all queries. Throws Stopped if the stop in
+  /// the limits is due, and TrialError if the system has too little memory for the batch.
   std::optional<WorkerFailure> perform(Request request, std::span<const Query> queries);
 
   /// The plug-in's decision on query i of the batch, as in nearmiss_subject.h.
   [[nodiscard]] int value(std::uint32_t i) const { return batch_.values()[i]; }
   /// The time of impact, bound, distance or clearance that the plug-in gave for query i of the batch.
   [[nodiscard]] double number(std::uint32_t i) const { return batch_.numbers()[i]; }
-  /// Further numbers of the answer to a question about one query: weights, or positions.
+  /// The other numbers in the answer to a question about one query: weights, or positions.
   [[nodiscard]] const std::array<double, 12>& more() const { return answers_->more; }
-  /// The time in ns that the worker measured in the last call: measured() is the time of the whole call,
-  /// measured(i) that of query i. Each time is limited to nearmiss's own time for the call. The time of the
+  /// The time in ns that the worker measured in the last call: measured() is the time of the whole call, and
+  /// measured(i) is the time of query i. If a time exceeds both the duration of the call and the computing
+  /// time of the call, as nearmiss measured them, it is lowered to the longer of the two. The time of the
   /// whole call is also raised to at least half of the computing time of all threads and processes of the
   /// plug-in, less the computing time that the worker itself may need. The factor is one half because the
   /// plug-in may have decided each query twice. The time of the first call is not raised.
@@ -113,8 +116,8 @@ class WorkerProcess {
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
     return limited(batch_.nanoseconds()[i], Duration{});
   }
-  /// The time measured(), without the time for copies to and from a device, as the plug-in states it; 0 if
-  /// the plug-in does not state it.
+  /// The time of the last call without the time for copies to and from a device, as the plug-in states it,
+  /// but at most measured(). 0 if the plug-in does not state this time.
   [[nodiscard]] std::uint64_t measured_kernels() const {
     return std::min(answers_->kernel_nanoseconds, measured());
   }
@@ -146,9 +149,9 @@ class WorkerProcess {
   /// Writes a batch to the shared memory.
   void give(std::span<const Query> queries);
   [[nodiscard]] Duration own_computing() const;
-  /// Updates others_ and others_compute_. The update takes longer than a call of a fast plug-in. So it is
-  /// made in each call only if the plug-in has started processes that compute, and in every 16th call
-  /// otherwise.
+  /// Updates others_ and others_compute_. This takes longer than a call of a fast plug-in. Therefore, the
+  /// update is made in every call only if the plug-in has started processes that compute; otherwise, it is
+  /// made in every 16th call.
   void look_at_others();
   /// Sends a call to the worker, and waits for the worker's reply.
   End ask(const Call& call, const Elapsed& of_query, const Elapsed& of_call);
@@ -170,7 +173,7 @@ class WorkerProcess {
   SharedMemory header_{"nearmiss-worker", sizeof(SharedAnswers), true};
   SharedAnswers* answers_ = new (header_.as<void>()) SharedAnswers;
   SharedMemory questions_of_batch_, answers_of_batch_;
-  BatchMemory batch_{};                    ///< of the last call
+  BatchMemory batch_{};                    ///< the batch of the last call
   std::size_t reserved_ = least_capacity;  ///< the number of queries for which memory is reserved
   Descriptor replies_;
   Supervisor supervisor_;
@@ -180,10 +183,10 @@ class WorkerProcess {
   std::uint64_t most_data_ = 0;
   bool is_waiting_ = false;                                         ///< whether the worker waits for a call
   std::optional<std::chrono::steady_clock::time_point> leaves_by_;  ///< set by dismiss()
-  Elapsed elapsed_;                                                 ///< of the last call
+  Elapsed elapsed_;                                                 ///< the times of the last call
   /// The computing time of all processes of the worker except the plug-in's process.
   ComputingTime others_;
-  bool others_compute_ = false;  ///< whether a process that the plug-in has started computes
+  bool others_compute_ = false;  ///< whether a process that the plug-in has started uses computing time
   Duration suspended_{};         ///< the time for which nearmiss was suspended during all calls so far
   Duration least_{};             ///< the lower limit of measured() for the last call
   DetectorInfo info_;

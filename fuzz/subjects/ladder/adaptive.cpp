@@ -39,7 +39,7 @@ class Adaptive final : public BatchSubject {
     for (std::size_t i = 0; i < queries.size(); ++i)
       if (verdicts[i].hit) reported[count++] = i;
     if (count == 0) return;
-    // A vector, because making an array of `at_once` queries takes longer than wang itself.
+    // `again` is a vector, because it takes longer to make an array of `at_once` queries than to run wang.
     std::vector<Query> again;
     again.reserve(count);
     for (std::size_t i = 0; i < count; ++i) again.push_back(queries[reported[i]]);

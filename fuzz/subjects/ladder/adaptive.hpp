@@ -1,4 +1,4 @@
-// A CCD that begins with wang, the failure-proof CCD, and removes its false positives.
+// A CCD that first asks wang, the failure-proof CCD, and then removes wang's false positives.
 #pragma once
 
 #include <memory>

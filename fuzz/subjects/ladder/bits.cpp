@@ -7,8 +7,9 @@ namespace nearmiss::ladder {
 
 namespace {
 
-/// While an object of this type exists, MPFR numbers of this thread have 1 - epsilon_exponent bits, and the
-/// processor's arithmetic is plain, for conversions from and to double.
+/// While an object of this type exists, MPFR numbers of this thread have 1 - epsilon_exponent bits. The
+/// member `guard` makes the processor's arithmetic plain (ccd/query/arithmetic.hpp), which conversions from
+/// and to double need.
 struct MpfrArithmetic {
   explicit MpfrArithmetic(int epsilon_exponent) : precision(1 - epsilon_exponent) {}
   PlainArithmetic guard;

@@ -17,7 +17,7 @@ namespace nearmiss {
 ///   quotient, root   16u²        (in tests against rational numbers; no proof is published)
 /// so ε = 16u² = 2^-102. The paper is Joldes, Muller and Popescu, "Tight and rigorous error bounds for basic
 /// building blocks of double-word arithmetic", ACM TOMS 44, 2017. Debian's libqd adds by another algorithm,
-/// whose relative error is unbounded for operands of opposite signs. That would violate the model of
+/// whose relative error is unbounded for operands of opposite signs. Such errors would violate the model of
 /// arithmetic in Wang's paper, so this class calls libqd's accurate sum and quotient by name.
 class DoubleDouble {
  public:
@@ -55,14 +55,13 @@ class DoubleDouble {
   friend DoubleDouble ldexp(const DoubleDouble& a, int exponent) {
     return DoubleDouble(dd_real(std::ldexp(a.value_.x[0], exponent), std::ldexp(a.value_.x[1], exponent)));
   }
-  /// The ilogb of the double in this sum whose magnitude is larger. It exceeds the ilogb of the sum by at
-  /// most one.
+  /// The ilogb of the larger of the two doubles. It exceeds the ilogb of the sum by at most one.
   friend int ilogb(const DoubleDouble& a) { return std::ilogb(a.value_.x[0]); }
   friend bool isfinite(const DoubleDouble& a) { return std::isfinite(a.value_.x[0]); }
 
  private:
-  /// Returns libqd's result, or, if libqd's result is not finite, the result that double gives. Beyond about
-  /// 2^996, intermediate results of libqd may overflow although the result itself does not overflow.
+  /// Returns libqd's result if it is finite, and otherwise the result of the same operation in double. Beyond
+  /// about 2^996, an intermediate result of libqd may overflow although the final result would not.
   static DoubleDouble or_double(const dd_real& result, double in_double) {
     return std::isfinite(result.x[0]) && std::isfinite(result.x[1]) ? DoubleDouble(result)
                                                                     : DoubleDouble(in_double);

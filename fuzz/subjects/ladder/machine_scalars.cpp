@@ -1,7 +1,7 @@
-// Scalars that the machine computes, and double-double. Under `MachineArithmetic`, which rounds to nearest,
-// the operations and the square root of IEEE 754 give the exact result times 1 + d with |d| <= u = ε/2,
-// unless they overflow or underflow; `in_range` (ccd/wang/motion.hpp) excludes both. double_double.hpp has
-// the bounds for double-double.
+// The scalars whose operations the processor computes, and double-double. Under `MachineArithmetic`, which
+// rounds to nearest, every operation of IEEE 754, including the square root, gives the exact result times 1 +
+// d with |d| <= u = ε/2, unless the operation overflows or underflows; `in_range` (ccd/wang/motion.hpp)
+// excludes both. double_double.hpp has the bounds for double-double.
 #include "fuzz/subjects/ladder/double_double.hpp"
 #include "fuzz/subjects/ladder/scaled_subject.hpp"
 

@@ -6,8 +6,8 @@
 
 namespace nearmiss::ladder {
 
-/// A base class for std::numeric_limits<T>, if the range of T is at least that of double. It gives the limits
-/// of double; the derived class replaces epsilon.
+/// A base class for std::numeric_limits<T>, for a type T whose range is at least the range of double. It
+/// gives the limits of double; the derived class replaces epsilon.
 template <class T>
 struct LimitsOfDouble : std::numeric_limits<double> {
   static T min() { return std::numeric_limits<double>::min(); }

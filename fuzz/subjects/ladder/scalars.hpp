@@ -27,7 +27,7 @@ struct Scalar {
 Scalar bits_scalar(int bits);
 
 /// The scalar "dd-normals": double, with double-double for normals and weights. named_scalars(), which is
-/// ordered by precision, omits it, because its ε is that of double.
+/// ordered by precision, omits this scalar, because it has the same ε as double.
 Scalar double_with_wide_normals();
 
 }  // namespace ladder
@@ -35,8 +35,8 @@ Scalar double_with_wide_normals();
 inline constexpr SubjectInfo dd_normals_info{
     "wang:dd-normals", "wang-scalar with normals and barycentric weights in double-double, all but exact"};
 
-/// The scalars with a name of their own, by ascending precision. The list does not have "p16" to "p256",
-/// which bits_scalar() makes.
+/// The scalars that have a name of their own, in the order of ascending precision. The list does not contain
+/// "p16" to "p256", which bits_scalar() makes.
 std::vector<ladder::Scalar> named_scalars();
 
 /// Makes basic, wang or wang-tight over a scalar, from a name such as "wang:p40". `given_bound` means the

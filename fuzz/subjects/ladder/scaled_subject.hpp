@@ -1,5 +1,5 @@
-// basic, wang and wang-tight over any scalar. Only the files that define scalars include this header, because
-// its templates are slow to compile.
+// The subjects basic, wang and wang-tight in any scalar. Only the files that define scalars include this
+// header, because its templates are slow to compile.
 #pragma once
 
 #include <algorithm>
@@ -41,8 +41,8 @@ struct EitherTolerances {
   }
 };
 
-/// Makes the processor's arithmetic plain while an object exists, for scalars that the processor computes
-/// itself.
+/// While an object of this type exists, the processor's arithmetic is plain (ccd/query/arithmetic.hpp). This
+/// type is for scalars whose operations the processor computes.
 struct MachineArithmetic {
   explicit MachineArithmetic(int /*epsilon_exponent*/) {}
   PlainArithmetic guard;
@@ -83,9 +83,9 @@ class Scaled final : public Subject {
           within_distance_bound<EitherTolerances, T>(seen.query, given_in(seen), tolerances_);
       return std::nextafter(std::ldexp(bound, -seen.exponent), std::numeric_limits<double>::infinity());
     }
-    // The bound that this function returns is rounded up. The margin `slack` covers the rounding of B, the
-    // size of the pair: the B that the subject computes in T is at most B* (1 + 40ε), where B* is the exact
-    // B.
+    // The bound that this function returns is rounded up. The subject computes B, the size of the pair, in T,
+    // with rounding errors: the computed B is at most (1 + 40ε) times the exact B. The margin `slack` covers
+    // this factor.
     const double bound = static_cast<double>(tolerances_(T(1)).distance_bound());
     const double slack = 1 + 64 * std::ldexp(1, epsilon_exponent_);
     const double B = given_.value_or(pair_bound(rounded(query)));
@@ -149,9 +149,9 @@ class Scaled final : public Subject {
     return given_ ? std::optional(std::ldexp(*given_, seen.exponent)) : std::nullopt;
   }
 
-  /// The query with coordinates and separation rounded to T. For float, whose range is smaller than that of
-  /// double, these numbers are first scaled by 2^exponent. If the absolute value of a coordinate would round
-  /// to 2^1024, it becomes the next smaller number of T.
+  /// The query with coordinates and separation rounded to T. For float, whose range is smaller than the range
+  /// of double, these numbers are first scaled by 2^exponent. If the absolute value of a coordinate would
+  /// round to 2^1024, the coordinate is rounded towards zero instead.
   [[nodiscard]] Seen as_seen(const Query& query) const {
     if (!narrow_) return {query, 0};
     int exponent = 0;
@@ -175,7 +175,7 @@ class Scaled final : public Subject {
   Algorithm algorithm_;
   std::optional<double> given_;
   bool narrow_;
-  double largest_;  ///< if T is narrow: the largest double that has no more digits than T
+  double largest_;  ///< if narrow_: the largest double that has no more digits than T
   EitherTolerances tolerances_;
 };
 

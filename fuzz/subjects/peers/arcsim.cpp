@@ -1,7 +1,7 @@
 // ARCSim's CCD (Narain, Samii and O'Brien, "Adaptive anisotropic remeshing for cloth simulation", 2012, and
 // later versions), collision_test() in src/collision.cpp. It solves the cubic numerically, and accepts a root
-// at which the primitives are closer than 1e-6. This adapter passes nodes with two positions, as ARCSim's
-// find_face_impacts() does.
+// at which the primitives are closer than 1e-6. This adapter passes each vertex as a node that has its
+// positions at the start and at the end of the step, as ARCSim's find_face_impacts() does.
 // Source: github.com/zhou13/arcsim, 28960d2. Licence: research, no fee.
 // Question: contact; the time of impact is an estimate.
 // Contract: the primitives are apart at t = 0. ARCSim starts each step from positions without collisions, and

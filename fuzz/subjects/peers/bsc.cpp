@@ -4,7 +4,8 @@
 // Licence: research, no fee (LICENSE.BSC.txt).
 // Question: contact. Contract: none. If the cubic has an inflection point in the time step, the code throws
 // an exception, so the query has no answer. The authors say that they do not handle this case exactly.
-// $BSC is the repository, with its code compiled into libbsc.a (g++ needs -frounding-math for it):
+// $BSC is the repository, with its code compiled into libbsc.a (if the compiler is g++, with
+// -frounding-math):
 //
 //   tools/subject fuzz/subjects/peers/bsc.cpp -- -I$BSC $BSC/libbsc.a
 #include <algorithm>

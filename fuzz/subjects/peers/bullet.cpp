@@ -1,5 +1,5 @@
-// The continuous collision detection of Bullet's soft bodies, which only tests vertices against triangles.
-// This adapter is compiled twice: with Bullet in single precision, and in double precision
+// The continuous collision detection of Bullet's soft bodies, which tests vertices against triangles, but no
+// edges. This adapter is compiled twice: with Bullet in single precision, and in double precision
 // (BT_USE_DOUBLE_PRECISION).
 // Built with Debian's libbullet-dev 3.24. Licence: zlib.
 // Question: contact. Contract: none.
@@ -19,8 +19,9 @@ constexpr btScalar dt = 1;  // in our queries, the unit of time is the time step
 /// The normal of a triangle, not normalised.
 btVector3 normal(const btVector3& a, const btVector3& b, const btVector3& c) { return (b - a).cross(c - a); }
 
-/// Fills a vertex and a face as Bullet's world does, and calls bernsteinCCD. Bullet computes the positions at
-/// the end of the time step from velocities, so it sees our positions at t = 1 with rounding errors.
+/// Fills a node (the vertex) and a face as Bullet's world does, and calls bernsteinCCD. Bullet computes the
+/// positions at the end of the time step from velocities, so it sees our positions at t = 1 with rounding
+/// errors.
 Answer decide(const Question& q) {
   std::array<btSoftBody::Node, 4> nodes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -1,8 +1,8 @@
 // Additive CCD in the code of its authors (Li, Kaufman and Jiang, "Codimensional incremental potential
 // contact", 2021), Library/Math/Distance/CCD.h, a file that other solvers have copied. This adapter does what
 // Compute_Intersection_Free_StepSize() in Library/FEM/IPC.h does: it first asks whether the boxes of the two
-// motions come within the thickness, and then calls the CCD with eta = 0.1. The time is the largest step that
-// the CCD allows.
+// motions come within the thickness of each other, and, if they do, calls the CCD with eta = 0.1. The time is
+// the largest step that the CCD allows.
 // Source: github.com/ipc-sim/Codim-IPC, 9c6cbe3. Licence: Apache 2.0.
 // Question: contact, or a separation, which the code calls thickness. The time of impact is a lower bound.
 // The code takes displacements, which this adapter computes with rounding errors. The option eta is the share
@@ -32,11 +32,12 @@ struct Settings {
 
 constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"eta", &Settings::eta, 1e-3, 0.999}}};
 
-/// Converts a vertex to this type, because the CCD's templates deduce the type of its coordinates.
+/// Converts a vertex to Eigen::Vector3d, because the CCD's templates deduce the type of the vertex's
+/// coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
-/// Makes a function that decides a query with n vertices. If the boxes meet, it asks the CCD; otherwise, it
-/// reports no collision.
+/// Makes a function that decides a query with n vertices. If the boxes meet, that function asks the CCD;
+/// otherwise, it reports no collision.
 template <std::size_t n, class Boxes, class Test>
 auto after_boxes(Boxes boxes, Test test) {
   return [=](const Settings& set, const Question& q) {

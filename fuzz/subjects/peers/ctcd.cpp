@@ -1,12 +1,13 @@
 // CTCD, Etienne Vouga's library. With a numerical solver for polynomials of degree up to 6, it decides
-// whether primitives come within a thickness eta. This adapter asks what src/CTCDNarrowPhase.cpp asks. For a
-// vertex and a triangle, this includes the vertex with each edge and each corner; for two edges, it includes
-// each end with the other edge and with each end of the other edge. CTCD's header says: "WARNING: Does not
-// work correctly if two edges are parallel at the time of intersection -- vertexEdgeCTCD should catch this
-// case". CTCD's narrow phase does not use the times of impact, so the adapter does not pass them on.
+// whether primitives come within a thickness eta. This adapter asks CTCD the same questions as
+// src/CTCDNarrowPhase.cpp. For a vertex and a triangle, it also asks about the vertex and each edge, and
+// about the vertex and each corner. For two edges, it also asks about each end and the other edge, and about
+// each end and each end of the other edge. CTCD's header says: "WARNING: Does not work correctly if two edges
+// are parallel at the time of intersection -- vertexEdgeCTCD should catch this case". CTCD's narrow phase
+// does not use the times of impact, so the adapter does not pass them on.
 // Source: github.com/evouga/collisiondetection, e5fe5c9. Licence: none stated.
-// Question: a separation, which becomes CTCD's eta. The option eta=1e-6 is the least eta, also for contact,
-// as in example/testCTCD.cpp, because CTCD finds no collision with an eta of 0.
+// Question: a separation, which becomes CTCD's eta. With an eta of 0, CTCD finds no collision. So eta is at
+// least the option eta=1e-6, even if the query asks for contact, as in example/testCTCD.cpp.
 // Contract: the primitives are farther apart at t = 0 than eta. CTCD's velocity filter refuses a start that
 // is closer (STARTING_STATE_INTERSECTS in VelocityFilter.h).
 // $CTCD is the repository:

@@ -1,5 +1,5 @@
-// FCL, the Flexible Collision Library: its continuous collision detection for deformable meshes, with each of
-// FCL's two solvers.
+// The continuous collision detection for deformable meshes of FCL, the Flexible Collision Library, with each
+// of its two solvers.
 // Built with Debian's libfcl-dev 0.7.0. Licence: BSD.
 // Question: contact; the time of impact is the root that the solver happens to find first. Contract: none.
 //

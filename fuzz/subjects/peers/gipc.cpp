@@ -1,9 +1,9 @@
 // GIPC's additive CCD (Huang and others, "GIPC: fast and stable Gauss-Newton optimization of IPC barrier
 // energy", 2024), GPU_IPC/ACCD.cu. It is CUDA code, here compiled for the host. On a GPU, the compiler fuses
 // multiplications with additions, which may change the last bits. This adapter calls the code as
-// _reduct_min_selfTimeStep_to_double() in GIPC.cu does, with eta = 0.2 and thickness 0. The code answers with
-// a time until which the step is safe. A time below 1 counts as a collision. After 50,000 iterations, the
-// code answers with the time that it has reached.
+// _reduct_min_selfTimeStep_to_double() in GIPC.cu does, with eta = 0.2 and thickness 0. The code gives a time
+// up to which the step is safe; a time below 1 counts as a collision. After 50,000 iterations, the code gives
+// the time that it has reached.
 // Source: github.com/KemengHuang/GPU_IPC, 46594e0. Licence: MPL 2.0.
 // Question: contact; the time of impact is a lower bound. The code takes displacements, which this adapter
 // computes with rounding errors. The option eta is the share of the distance at t = 0 that remains at the

@@ -1,5 +1,5 @@
-// Two CCDs of ipc-toolkit, called as its classes of candidate pairs call them (src/ipc/candidates/). Below,
-// d0 is the distance at t = 0, less the separation:
+// Two CCDs of ipc-toolkit. This adapter calls them as ipc-toolkit's classes of candidate pairs do
+// (src/ipc/candidates/). Below, d0 is the distance at t = 0, less the separation:
 //
 //   ipc-tight-inclusion  TightInclusionCCD, its default: Tight-Inclusion with a minimum distance of
 //                        min(0.2 d0, 1e-4)

@@ -38,7 +38,8 @@ struct Settings {
 
 constexpr std::array<nearmiss::Option<Settings>, 1> settings{{{"d-hat", &Settings::d_hat, 0, 1e300}}};
 
-/// Converts a vertex to Eigen::Vector3d, because libuipc's templates deduce the type of its coordinates.
+/// Converts a vertex to Eigen::Vector3d, because libuipc's templates deduce the type of the vertex's
+/// coordinates.
 Eigen::Vector3d vector(const Eigen::Vector3d& vertex) { return vertex; }
 
 /// Makes a function that decides queries with n vertices. If the boxes meet, the function asks the CCD;

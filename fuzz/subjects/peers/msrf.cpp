@@ -1,9 +1,9 @@
 // The minimum separation root finder (Harmon, Panozzo, Sorkine and Zorin, "Interference-aware geometric
 // modeling", 2011, in the implementation of the Tight-Inclusion authors). It looks for the times at which the
 // distance is equal to a separation h, and accepts the times at which the squared distance is at most h² + h
-// / 10. With h = 0, this leaves no room for rounding, and the root finder finds hardly any collision. So this
-// adapter always passes a separation h > 0. The root finder does not notice if the distance is already below
-// h at t = 0.
+// / 10. With h = 0, the tolerance h / 10 leaves no room for rounding errors, so the root finder finds hardly
+// any collision. Therefore, this adapter always passes a separation h > 0. The root finder does not notice if
+// the distance is already below h at t = 0.
 // Source: github.com/Continuous-Collision-Detection/Minimum-Separation-Root-Finder, src, 1aeb9ac0. Licence:
 // MIT.
 // Question: a separation. If the query asks for contact, the separation is 1e-8. The time of impact is an
@@ -22,8 +22,8 @@ using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
 /// The separation that the root finder gets if the query asks for contact. The authors of this implementation
-/// use it in their benchmark when they ask for collisions at distance 0 (DEFAULT_MIN_DISTANCE of CCD-Wrapper,
-/// src/ccd.hpp).
+/// use this separation in their benchmark when they ask for collisions at distance 0 (DEFAULT_MIN_DISTANCE of
+/// CCD-Wrapper, src/ccd.hpp).
 constexpr double contact = 1e-8;
 
 Answer decide(const Question& q) {

@@ -3,8 +3,8 @@
 // the whole step, or a part in which no pair's gap shrinks by more than 80 %. It promises that the advanced
 // configuration has no intersection. Therefore, alpha < 1 counts as a collision, and alpha is a lower bound
 // of the time of impact. A false positive says only that a gap shrinks by more than 80 %. As in MuJoCo's own
-// test, the adapter passes one pair of a flex vertex and a flex triangle, or of two flex edges, and all
-// vertices are free.
+// test, the adapter passes a single pair: a flex vertex and a flex triangle, or two flex edges. All vertices
+// are free.
 // Source: github.com/google-deepmind/mujoco, a7255075b. Licence: Apache 2.0.
 // Question: contact; the time of impact is a lower bound. With same-flex=1, both primitives belong to one
 // flex (a deformable), and their mean motion does not count.

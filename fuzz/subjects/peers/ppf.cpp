@@ -3,8 +3,8 @@
 // the last bits. This adapter calls the code as contact.cu does, with the time step extended to t = 1.25
 // (line-search-max-t). A time below 1.25 is a collision. The solver then cuts the step to 0.8 of that time
 // (line_search() divides by 1.25); the adapter passes on this shorter time. By design, two further cases are
-// collisions: contact between t = 1 and t = 1.25, and an approach to a hundredth of the contact gap, the
-// distance at which the solver stops pairs.
+// collisions: contact between t = 1 and t = 1.25, and an approach to a hundredth of the contact gap, because
+// the solver stops pairs at this distance.
 // Source: github.com/st-tech/ppf-contact-solver, f23b356. Licence: Apache 2.0.
 // Question: contact, or a separation, which the code calls contact offset. The time of impact is a lower
 // bound. The options have the solver's defaults: gap=1e-3 (contact-gap), eps=1e-7 (ccd-eps), end=1.25

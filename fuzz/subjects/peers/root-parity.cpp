@@ -19,9 +19,8 @@ namespace {
 using nearmiss::plugin::Answer;
 using nearmiss::plugin::Question;
 
-/// Restarts rand() from the same seed for every query, so that an answer depends only on the query, although
-/// the code replaces unlucky rays by random ones. Uses the smallest state that the C library offers, to be
-/// fast.
+/// Restarts rand() from the same seed for every query. The code replaces unlucky rays by random rays, but an
+/// answer must depend only on the query. To be fast, uses the smallest state that the C library offers.
 void restart_random_numbers() {
   static std::array<char, 8> smallest;
   static const bool is_set = initstate(1, smallest.data(), smallest.size()) != nullptr;

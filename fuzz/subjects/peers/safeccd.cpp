@@ -34,8 +34,8 @@ Answer decide(const Question& q) {
   return Answer::of(collides, t);
 }
 
-/// The bound that the paper claims: 41 B ε^¼, with ε^¼ = 2^-13. According to the code, too, the largest
-/// distance of a false positive is half of `gap`, and `gap` is twice this bound.
+/// The bound that the paper claims: 41 B ε^¼, with ε^¼ = 2^-13. The code says the same: the largest distance
+/// of a false positive is half of `gap`, and `gap` is twice this bound.
 double distance_bound(void* /*state*/, int kind, const double* x) {
   const Question q{kind, x, 0};
   return 41 * 0x1p-13 *
@@ -45,9 +45,9 @@ double distance_bound(void* /*state*/, int kind, const double* x) {
 
 }  // namespace
 
-// The code's tests multiply up to six unscaled lengths: beyond 1e±50, the products overflow or vanish. If all
-// coordinates are multiples of about 1e-50, B is at least 1e-50, unless all points of the pair coincide at
-// all times.
+// The code's tests multiply up to six unscaled lengths. These products overflow for lengths above 1e50, and
+// vanish for lengths below 1e-50. The contract requires that all coordinates are multiples of about 1e-50, so
+// B is at least 1e-50, unless all points of the pair coincide at all times.
 NEARMISS_SUBJECT(detector("safeccd", "1.0",
                           "the 2014 paper's own code, SAFE_CCD, with each pair's own bound B")
                      .vertex_triangle(decide)

@@ -2,16 +2,16 @@
 // continuous collision detection and a scalable conservative algorithm", 2023): Tight-Inclusion for a GPU, in
 // one of two versions. `scalable-ccd`, the default, computes in double; `scalable-ccd-float`, built without
 // SCALABLE_CCD_USE_DOUBLE, computes in float. Here, its kernels are compiled for the host, and run in one
-// thread. On a GPU, they are compiled with --use_fast_math, which may change the last bits, and one level of
-// bisection tests all its domains (boxes of parameters) at the same time. When a kernel tests a domain, it
-// compares the limit on iterations with the number of domains that were tested earlier. On a GPU, chance
+// thread. On a GPU, they are compiled with --use_fast_math, which may change the last bits, and all domains
+// (boxes of parameters) of one level of bisection are tested at the same time. When a kernel tests a domain,
+// it compares the limit on iterations with the number of domains that were tested earlier. On a GPU, chance
 // decides how many domains of the same level this number includes; here it includes none, so that the limit
 // drops as few domains as possible. This adapter does what partial_ipc_ccd_strategy() in
 // cuda/ipc_ccd_strategy.cu does. If the CCD finds a time below 1e-6, that function asks again, without a
 // separation and without a limit on iterations, and answers with 0.8 of the new time. If the iterations run
-// out, the kernel drops the remaining domains, and the answer is no collision unless a collision was found
-// before. If the queue exceeds 2^24 domains, this adapter answers "cannot tell"; the original enlarges its
-// queue and asks again, until the GPU's memory is full.
+// out, the kernel drops the remaining domains; the answer is then "no collision", except if the kernel has
+// already found a collision. If the queue exceeds 2^24 domains, this adapter answers "cannot tell"; the
+// original enlarges its queue and asks again, until the GPU's memory is full.
 // Source: github.com/Continuous-Collision-Detection/Scalable-CCD, 8f9347c. Licence: Apache 2.0.
 // Question: contact, or a separation, which the code calls min_distance. The time of impact is a lower bound.
 // The options have the values that ipc-toolkit (b40e9c07, ipc.cpp) passes: tolerance=1e-6, iterations=1e7

@@ -39,8 +39,8 @@ using namespace nearmiss;
 using namespace nearmiss::isolation;
 
 SharedAnswers* answers = nullptr;
-BatchMemory shared{};            // of the current batch
-std::uint32_t most_queries = 0;  // the most queries that a batch may have
+BatchMemory shared{};            // the memory of the current batch
+std::uint32_t most_queries = 0;  // the largest number of queries that a batch may have
 
 template <std::size_t n>
 void copy(std::string_view text, std::array<char, n>& to) {
@@ -77,8 +77,8 @@ void handle(int signal, void (*handler)(int)) {
   sigaction(signal, &action, nullptr);
 }
 
-/// Writes the functions on the stack to standard error, the innermost first, without the functions of this
-/// program. Ends the process by the signal of the crash, even if the stack cannot be read in time.
+/// Writes the functions on the stack to standard error, the innermost first, up to the first function of this
+/// program. Then ends the process by the signal of the crash, even if the stack cannot be read in time.
 extern "C" void write_stack_and_end(int signal) {
   constexpr itimerval patience{{}, {0, 20'000}};
   constexpr int of_handler = 2;  // the innermost functions on the stack, which handle the signal
@@ -111,15 +111,15 @@ void prepare_for_faults(bool writes_stack) {
   std::set_terminate(note_exception_and_end);
 }
 
-/// Stores which query comes next, so that nearmiss knows the query if the plug-in crashes in it.
+/// Stores which query comes next, so that nearmiss knows which query to blame if the plug-in crashes.
 void begin(std::uint32_t i) {
   answers->memory_refused.store(0, std::memory_order_relaxed);
   answers->current.store(i, std::memory_order_release);
   answers->calls.fetch_add(1, std::memory_order_release);
 }
 
-/// Stores for n queries the number of the call that answered them (0: no call). Must be called after the
-/// answers are written, because the process may end at any moment.
+/// Stores, for each of n queries, the number of the call that answered the query (0: no call). Must be called
+/// after the answers are written, because the process may end at any moment.
 void note(std::uint64_t* calls, std::uint32_t n, std::uint64_t call) {
   for (std::uint32_t i = 0; i < n; ++i) std::atomic_ref(calls[i]).store(call, std::memory_order_release);
 }
@@ -129,7 +129,7 @@ const double* coordinates(const Detector& detector, Kind kind, std::uint32_t fir
   const std::size_t size = coordinate_count(kind);
   if (!detector.info().in_arrays) return shared.x() + size * first;
   if (n == shared.n) return shared.x();
-  // A detector that wants larger batches always gets them as a whole.
+  // This array is large enough, because a larger batch goes to the detector as a whole.
   static std::array<double, 24 * least_capacity> part;
   for (std::size_t k = 0; k < size; ++k) std::copy_n(shared.x() + shared.n * k + first, n, &part[n * k]);
   return part.data();
@@ -141,8 +141,8 @@ struct Answers {
   int* values;
 };
 
-/// Asks a detector about a batch: the plug-in's detector, or the empty one (Detector::empty). The batch has
-/// the layout that the plug-in's detector wants.
+/// Asks a detector about a batch. The detector is the plug-in's, or the empty detector (Detector::empty). In
+/// both cases, the batch has the layout that the plug-in's detector wants.
 class Asking {
  public:
   Asking(const Detector& plugin, const Call& call)
@@ -161,10 +161,11 @@ class Asking {
         first, last, step);
   }
 
-  /// Asks the plug-in's detector about the whole batch, and measures the time of all threads, since a plug-in
-  /// may have threads of its own. Before the measurement, makes the detector decide some queries, which
-  /// brings the detector's code into the caches. Omits this if the first query takes so long that caches make
-  /// no difference.
+  /// Asks the plug-in's detector about the whole batch, and returns the computing time, less the computing
+  /// time of the same calls to the empty detector. The time includes all threads, since a plug-in may have
+  /// threads of its own. Before the measurement, makes the detector decide some queries, which brings the
+  /// detector's code into the caches. Omits these extra queries if the first query takes so long that caches
+  /// make no difference.
   std::uint64_t time_of_warm() {
     constexpr std::uint64_t long_query = 1'000'000;
     const std::uint32_t all = call_.queries;
@@ -270,8 +271,8 @@ void reply(std::uint64_t number) {
   }
 }
 
-/// The two descriptors that come with Request::share: the first is that of the memory for questions, the
-/// second is that of the memory for answers.
+/// The two descriptors that come with Request::share. The first belongs to the memory for questions, and the
+/// second to the memory for answers.
 using Files = std::array<int, 2>;
 
 /// Receives a call with at most `most` queries; if `files` is not null, also receives the files that come
@@ -369,7 +370,7 @@ Loaded load(std::string_view name) {
     return {open_detector(library.subject(parsed.subject), parsed.options, library.names())};
   } catch (const Error& error) {
     const std::string_view text = error.what();
-    // dlopen(3) does not call our malloc, which would have noted the refusal.
+    // dlopen(3) may run out of memory without a call of our malloc, so this code notes the refusal.
     if (text.ends_with(std::strerror(ENOMEM))) note_refusal();
     copy(text, answers->error);
     return {};

@@ -42,8 +42,8 @@ void write_to(const char* path, const std::string& text) {
   close(file);
 }
 
-/// Enters new namespaces. This function first tries to do so without a new user namespace, because root keeps
-/// its rights to files only in its original user namespace.
+/// Enters new namespaces. This function first tries to enter them without a new user namespace, because root
+/// keeps its rights to files only in its original user namespace.
 bool enter(int namespaces) {
   if (unshare(namespaces) == 0) return true;
   const auto same = [](unsigned id) { return std::to_string(id) + ' ' + std::to_string(id) + " 1"; };

@@ -1,5 +1,5 @@
-// Limits on the files and processes of a plug-in's process, and the namespaces that keep it from processes
-// outside and from the network.
+// Limits the files and processes of a plug-in's process. Puts this process into namespaces, in which it can
+// reach neither outside processes nor the network.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,9 @@ void forbid_core_dumps();
 /// /proc, they can withdraw this request.
 void be_ended_first_for_want_of_memory();
 
-/// Limits the number of the user's processes and threads to the present number plus `more`. The limit binds
-/// this process and its descendants; the system does not apply it to root.
+/// Limits the number of the user's processes and threads to the present number plus `more`. The limit stops
+/// only this process and its descendants from starting more processes; the system does not apply the limit to
+/// root.
 void limit_processes(unsigned long more);
 
 /// Makes the first child of this process become process 1 of a new PID namespace. When process 1 ends, the
@@ -33,8 +34,8 @@ void leave_network();
 
 /// Gives process 1 and its descendants folders of their own: a read-only /proc that shows only their
 /// namespace, a /dev/shm for POSIX shared memory, which can hold `bytes` bytes (if `bytes` is 0: half of the
-/// machine's memory), and a /dev/pts for terminals. If the system refuses this, as in some containers, these
-/// folders stay as they are.
+/// machine's memory), and a /dev/pts for terminals. If the system refuses to mount them, as in some
+/// containers, these folders stay as they are.
 void mount_own_folders(std::uint64_t bytes);
 
 }  // namespace nearmiss::isolation

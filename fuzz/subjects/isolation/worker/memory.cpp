@@ -79,8 +79,9 @@ namespace nearmiss::isolation {
 
 namespace {
 
-/// The folder in /proc of this process, or of its only child, which is a program. The path does not contain
-/// the number `process`, because /proc may show another PID namespace, in which processes have other numbers.
+/// The folder in /proc of `process`, which is this process or its only child, a program. The path does not
+/// contain the number `process`, because /proc may show another PID namespace, in which processes have other
+/// numbers.
 std::string folder_of(pid_t process) {
   if (process == getpid()) return "/proc/self";
   std::ifstream("/proc/thread-self/children") >> process;

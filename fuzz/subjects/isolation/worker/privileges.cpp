@@ -25,7 +25,7 @@ namespace nearmiss::isolation {
 
 namespace {
 
-constexpr int ioprio_who_process = 1;  // ioprio_set(2); no header has it
+constexpr int ioprio_who_process = 1;  // see ioprio_set(2); no header defines this constant
 
 /// The machine (AUDIT_ARCH_...) of this program's system calls; 0 if the filter does not support this
 /// machine.
@@ -37,8 +37,8 @@ constexpr unsigned machine = AUDIT_ARCH_AARCH64;
 constexpr unsigned machine = 0;
 #endif
 
-/// A program for the kernel (seccomp(2)) that judges each system call; a forbidden call fails with EPERM.
-/// Before and after every rule, the accumulator has the number of the call.
+/// A program that the kernel runs for each system call (seccomp(2)); a forbidden call fails with EPERM.
+/// Before and after every rule, the program's accumulator has the number of the system call.
 class Filter {
  public:
   Filter() {
@@ -88,8 +88,8 @@ class Filter {
   void load(std::size_t offset) {
     code_.push_back(BPF_STMT(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(offset)));
   }
-  /// Loads the lower half of an argument, because the arguments that the filter judges have 32 bits. x86-64
-  /// and AArch64 store the lower half first.
+  /// Loads the lower half of an argument, because each argument that the filter tests has only 32 bits.
+  /// x86-64 and AArch64 store the lower half first.
   void load_argument(unsigned i) { load(offsetof(seccomp_data, args) + i * sizeof(__u64)); }
   void jump(unsigned short test, unsigned value, unsigned char if_true, unsigned char if_false) {
     code_.push_back(BPF_JUMP(static_cast<unsigned short>(BPF_JMP | test | BPF_K), value, if_true, if_false));
@@ -145,12 +145,12 @@ void confine_to_itself() {
                          SYS_sched_setscheduler, SYS_sched_setparam, SYS_sched_setattr, SYS_sched_setaffinity,
                          SYS_migrate_pages, SYS_move_pages})
     filter.limit(call, 0, self, 0);
-  // Forbids changing the priority of a group, a user or another process.
+  // Forbids these processes to change the priority of a group, a user or another process.
   filter.limit(SYS_setpriority, 0, PRIO_PROCESS, PRIO_PROCESS);
   filter.limit(SYS_ioprio_set, 0, ioprio_who_process, ioprio_who_process);
   for (const int call : {SYS_setpriority, SYS_ioprio_set}) filter.limit(call, 1, self, 0);
-  // Forbids setting the owner of an open file: the owner gets signals, and the process that sets the owner
-  // chooses which signals these are.
+  // Forbids these processes to set the owner of an open file, because the owner gets signals, and the process
+  // that sets the owner chooses which signals these are.
   for (const int command : {F_SETOWN, F_SETOWN_EX}) filter.forbid(SYS_fcntl, 1, command);
   for (const int command : {FIOSETOWN, SIOCSPGRP}) filter.forbid(SYS_ioctl, 1, command);
   // Keeps all processes that this process starts in its process group, so that one signal to the group
@@ -160,8 +160,8 @@ void confine_to_itself() {
 }
 
 void keep_out_of_other_processes() {
-  // Moving files from one folder to another, as pocl does with compiled kernels, must be allowed explicitly.
-  // The first version of Landlock always refuses such moves.
+  // Landlock refuses to move a file from one folder to another, as pocl does with compiled kernels, unless a
+  // rule allows such moves. The first version of Landlock has no such rule.
   const bool can_allow_moves =
       syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION) > 1;
   const __u64 of_folders =
@@ -175,8 +175,8 @@ void keep_out_of_other_processes() {
     const std::string_view name = entry->d_name;
     if (name == "." || name == ".." || name == "proc") continue;
     const int parent = openat(dirfd(root), entry->d_name, O_PATH | O_CLOEXEC);
-    for (const __u64 access : {of_folders, __u64{LANDLOCK_ACCESS_FS_WRITE_FILE}}) {  // the second is for
-                                                                                     // files
+    // If the entry is a file, the system refuses a rule that allows moves, but accepts the second rule.
+    for (const __u64 access : {of_folders, __u64{LANDLOCK_ACCESS_FS_WRITE_FILE}}) {
       const landlock_path_beneath_attr rule{.allowed_access = access, .parent_fd = parent};
       syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0);
     }

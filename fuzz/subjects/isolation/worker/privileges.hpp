@@ -9,9 +9,9 @@ namespace nearmiss::isolation {
 void drop_privileges();
 
 /// Forbids this process, and all processes that it starts, to use the keyrings of the user (keyrings(7)) or
-/// to change settings of terminals. So they cannot stop the output of the user's terminal. Call
-/// drop_privileges() first. Does nothing if the kernel has no filters of system calls, or on machines other
-/// than x86-64 and AArch64.
+/// to change settings of terminals. So these processes cannot stop the output of the user's terminal. Call
+/// drop_privileges() first. Does nothing if the kernel has no filters of system calls, and does nothing on
+/// machines other than x86-64 and AArch64.
 void keep_out_of_keyrings_and_terminals();
 
 /// Limits this process and all processes that it starts. They can send signals only to this process. They
@@ -21,8 +21,8 @@ void keep_out_of_keyrings_and_terminals();
 /// keep_out_of_keyrings_and_terminals() does nothing.
 void confine_to_itself();
 
-/// Limits this process and all processes that it starts. They can no longer read the memory, environment and
-/// open files of any other process, although /proc shows these to processes of the same user. They can write
+/// Limits this process and all processes that it starts. They cannot read the memory, environment and open
+/// files of any other process, although /proc shows these to processes of the same user. They can write
 /// neither to /proc nor to new files directly in /. Call drop_privileges() first. Does nothing if the kernel
 /// has no Landlock.
 void keep_out_of_other_processes();

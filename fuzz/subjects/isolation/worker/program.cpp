@@ -37,7 +37,8 @@ struct Pipe {
   }
 };
 
-/// Called in the new process: makes the pipes its standard streams, and becomes the command.
+/// Called in the new process. Makes the pipes the standard streams of this process, and replaces the
+/// process's program by the command.
 [[noreturn]] void become(const std::string& command, const Pipe& in, const Pipe& out, const Pipe& errors) {
   dup2(in.read, STDIN_FILENO);
   dup2(out.write, STDOUT_FILENO);

@@ -16,9 +16,9 @@ namespace nearmiss::isolation {
 struct UnaskedBytes {};
 
 /// Runs a command as a child of this process. The command answers batches of queries, as
-/// fuzz/subjects/PROGRAMS.md says. If the command ends, this process writes to standard error what the
-/// command wrote there. If the command failed with a message, Program then throws std::runtime_error with the
-/// message's last line; otherwise, this process ends as the command did.
+/// fuzz/subjects/PROGRAMS.md says. If the command ends, this process copies the end of the command's standard
+/// error to its own standard error. If the command failed and wrote a message there, Program then throws
+/// std::runtime_error with the last line of the message; otherwise, this process ends as the command did.
 class Program {
  public:
   /// Starts the command, and reads its description. Throws Error if the description is missing or invalid.

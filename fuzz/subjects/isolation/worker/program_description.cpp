@@ -73,7 +73,7 @@ void read_separation(const std::string& value, nearmiss_subject& subject) {
     subject.separation_kinds = sum_of_kinds(value);
 }
 
-/// The lines of a description, and how each line's value is read.
+/// For each line that a description may have, the function that reads the line's value.
 using Description = ProgramDescription;
 const std::map<std::string_view, std::function<void(Description& to, const std::string& value)>> lines{
     {"name", [](auto& to, auto& value) { to.name = value; }},

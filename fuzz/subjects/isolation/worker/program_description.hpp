@@ -11,7 +11,7 @@ namespace nearmiss::isolation {
 struct ProgramDescription {
   std::string name, version, about;
   bool claims_bound = false;
-  bool says_seconds = false;  ///< each answer ends with the seconds that it took without copies
+  bool says_seconds = false;  ///< each answer ends with the seconds that it took, without copies to a device
   bool ignores_separation_in_bounds = false;  ///< in version 2, questions about bounds have h = 0
   /// The other facts about the program; the texts and functions of `subject` are not set.
   nearmiss_subject subject{};

@@ -1,13 +1,13 @@
 // nearmiss-worker CODE PLUGIN BYTES NAMESPACE: runs a plug-in in a process of its own, under a supervisor
 // that never runs the plug-in's code. CODE is a digest of the code that the worker shares with nearmiss; a
-// worker with another digest refuses to work. BYTES limits the plug-in's memory; 0 is no limit. The
-// supervisor reads what the plug-in's process writes to standard error. It tells nearmiss how that process
-// ended, and what it wrote last. When the plug-in's process or nearmiss ends, the supervisor ends all
-// processes that the plug-in has started, and itself.
+// worker with another digest refuses to work. BYTES limits the plug-in's memory; 0 means no limit. The
+// supervisor reads what the plug-in's process writes to standard error. When that process has ended, the
+// supervisor tells nearmiss how the process ended and what the process wrote last. When the plug-in's process
+// or nearmiss ends, the supervisor ends all processes that the plug-in has started, and itself.
 //
 // If NAMESPACE is 1 and the system allows it, the supervisor is process 1 of a PID namespace, in which no
-// other process can stop, kill or trace it. A guard outside, which has no process id in the namespace, also
-// waits for the end of nearmiss, and then kills the supervisor. The system then ends all processes of the
+// other process can stop, kill or trace it. A guard outside the namespace, which has no process id inside it,
+// also waits until nearmiss ends, and then kills the supervisor. The system then ends all processes of the
 // namespace.
 #include <fcntl.h>
 #include <poll.h>
@@ -100,7 +100,8 @@ class LastOutput {
     if (pipe_ >= 0) fcntl(pipe_, F_SETFL, O_NONBLOCK);
   }
 
-  /// The event for poll(2): the pipe can be read. poll(2) ignores it once the pipe has no writer.
+  /// The event for poll(2) that the pipe can be read. After the last writer has closed the pipe, the event
+  /// has the descriptor -1, which poll(2) ignores.
   [[nodiscard]] pollfd event() const { return {pipe_, POLLIN, 0}; }
 
   /// Reads the bytes that are in the pipe, but at most 128 KiB, because a process that writes to the pipe may
@@ -192,7 +193,8 @@ int supervise(const Assignment& work) {
     tell(ended);
   }
   if (!work.own_namespace) {
-    // The process has no group of its own yet.
+    // If the process has no group of its own yet, the first kill(2) fails, and the second one ends the
+    // process.
     if (!end && kill(-process, SIGKILL) != 0) kill(process, SIGKILL);
     end_descendants();
   }
