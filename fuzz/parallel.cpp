@@ -18,11 +18,11 @@ namespace nearmiss {
 
 namespace {
 
-/// Starts threads until there are `jobs` threads, including the calling thread, or until the system cannot
-/// start another thread. Then ends the threads that it started. Returns the number of threads that there
-/// were, or half of this number if the system could not start another thread. The other half is a reserve,
-/// because other processes may start threads before the caller does, and because the system counts a thread
-/// for a while after its end.
+/// Tries how many threads the system can start. Starts threads until `jobs` threads exist, including the
+/// calling thread, or until the system refuses to start another thread. Then ends the started threads.
+/// Returns the number of threads that existed at the same time. If the system refused a thread, returns only
+/// half of this number. The other half is a reserve: other processes may start threads before the caller
+/// does, and the system still counts a thread for a while after the thread has ended.
 int try_threads(int jobs) {
   std::latch all_tried(1);
   std::vector<std::thread> threads;
@@ -40,16 +40,18 @@ int try_threads(int jobs) {
 }
 
 /// The number of threads, at most `jobs`, that TBB can use. TBB ends the program if it cannot start a thread.
-/// So if `jobs` exceeds the largest number tried so far, try_threads() tries `jobs`. TBB keeps the threads
-/// that it has started, so a smaller number needs no trial.
+/// So if `jobs` exceeds the largest number that try_threads() has returned so far, this function calls
+/// try_threads() first. TBB keeps the threads that it has started, so it can use a smaller number of threads
+/// without another trial.
 int usable_threads(int jobs) {
   static std::atomic<int> most = 1;
   if (most < jobs) most = std::max(most.load(), try_threads(jobs));
   return std::min(jobs, most.load());
 }
 
-/// Throws std::bad_alloc if too little memory is left for TBB's start. If TBB (2022.1) finds no memory when
-/// it starts, it does not throw, but waits forever for a lock that it holds itself.
+/// Throws std::bad_alloc if too little memory is left to start TBB. Without this check, TBB (2022.1) would
+/// not throw an exception if it ran out of memory during its start. It would wait forever for a lock that it
+/// holds itself.
 void expect_memory_to_start() {
   static std::atomic<bool> has_started = false;
   if (has_started.exchange(true)) return;
@@ -60,7 +62,7 @@ void expect_memory_to_start() {
 }
 
 /// Runs a parallel algorithm on at most `jobs` threads. Without `global_control`, TBB would start at most one
-/// thread per core.
+/// thread per core, even if `jobs` is larger.
 void on_threads(int jobs, const std::function<void()>& algorithm) {
   expect_memory_to_start();
   jobs = usable_threads(jobs);
@@ -69,8 +71,8 @@ void on_threads(int jobs, const std::function<void()>& algorithm) {
   tbb::task_arena(jobs).execute(algorithm);
 }
 
-/// Performs the actions of several threads until an action throws an exception. Keeps this exception, because
-/// an exception that leaves a pipeline of TBB leaks the items inside the pipeline.
+/// Performs the actions of several threads until an action throws an exception. Catches and keeps this
+/// exception. If the exception left a TBB pipeline, the items inside the pipeline would leak.
 class FirstFailure {
  public:
   template <class Action>
@@ -108,8 +110,8 @@ void in_parallel(int jobs, std::size_t count, const std::function<void(std::size
 
 void detail::in_order(int jobs, const std::function<Untyped()>& next, const std::function<void(void*)>& work,
                       const std::function<void(void*)>& take) {
-  // The number of items for each thread. With several items, one slow item does not hold up the other
-  // threads.
+  // The number of items in the pipeline per thread. If each thread has several items, one slow item does not
+  // hold up the other threads.
   constexpr std::size_t on_their_way = 16;
   FirstFailure failure;
   const auto make = [&](tbb::flow_control& control) {

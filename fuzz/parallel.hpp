@@ -1,5 +1,5 @@
-// Parallel loops, which pass exceptions on to their callers. Shrinking (trial/shrinking.hpp) runs beside
-// these loops, on threads of its own.
+// Parallel loops. If the work throws an exception, the loop passes it on to its caller. Shrinking
+// (trial/shrinking.hpp) does not use these loops: it runs at the same time, on threads of its own.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ std::thread start_thread(std::function<void()> work);
 void in_parallel(int jobs, std::size_t count, const std::function<void(std::size_t)>& work);
 
 /// Calls work(first, last) for consecutive parts [first, last) of [0, count), on all processors. If `count`
-/// is small, calls work(0, count) once, on this thread.
+/// is small, calls work(0, count) once, on the calling thread.
 template <class PartWork>
 void in_parts(std::size_t count, const PartWork& work) {
   constexpr std::size_t part = 16384;
@@ -38,8 +38,9 @@ void in_order(int jobs, const std::function<Untyped()>& next, const std::functio
 }  // namespace detail
 
 /// Runs a pipeline. next() makes items until it returns nothing. work(item) runs on `jobs` threads, or on as
-/// many as the system can start. take(item) receives each item after its work. next() and take() handle the
-/// items in order, each of them one item at a time. At most 16 items per thread exist at the same time.
+/// many as the system can start. take(item) receives each item after its work. take() receives the items in
+/// the order in which next() makes them. Only one call of next() runs at a time, and only one call of take().
+/// At most 16 items per thread exist at the same time.
 template <class Item>
 void in_order(int jobs, const std::function<std::optional<Item>()>& next,
               const std::function<void(Item&)>& work, const std::function<void(Item&)>& take) {

@@ -1,9 +1,9 @@
-// The only source of random numbers. Each number is a function of a key and a counter; no state outlives a
-// query.
+// The only source of random numbers. Each number is a function of a key and a counter. No state is carried
+// over from one query to the next.
 #pragma once
 
-// The generator Philox needs no SSE instructions, and the header that declares them takes more than a second
-// to compile.
+// Philox, the generator that this file uses, needs no SSE instructions. The header that declares these
+// instructions takes more than a second to compile.
 #define R123_USE_SSE 0
 #include <Random123/philox.h>
 
@@ -18,7 +18,8 @@ namespace nearmiss {
 
 /// A sequence of random numbers that depends only on (seed, stream, index): Philox4x64-10 with the key (seed,
 /// stream) and the counter (index, number of the draw / 4). Vector instructions would not help, because they
-/// cannot multiply 64-bit integers: with them, eight streams took 1.6 times as long as without them.
+/// cannot compute the 128-bit product of two 64-bit integers: with vector instructions, eight streams took
+/// 1.6 times as long as without.
 class Random {
  public:
   Random(std::uint64_t seed, std::uint64_t stream, std::uint64_t index)
@@ -48,8 +49,9 @@ class Random {
     return all;
   }
   double uniform(double lo, double hi) { return lo + (hi - lo) * uniform(); }
-  /// A log-uniform number in [lo, hi), for positive lo and hi. The last bit depends on the C library's exp
-  /// and log, which differ on processors without fused multiply-add.
+  /// A log-uniform number in [lo, hi), for positive lo and hi. The last bit of the result depends on exp and
+  /// log of the C library. On processors without fused multiply-add, these functions may return other
+  /// results.
   double log_uniform(double lo, double hi) { return std::exp(uniform(std::log(lo), std::log(hi))); }
   /// A random integer in [lo, hi]. Each integer has the probability 1 / (hi - lo + 1), up to an error below
   /// 2^-32.

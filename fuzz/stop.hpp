@@ -9,7 +9,8 @@ namespace nearmiss {
 /// Thrown by work that ends before it is done, because its `Stop` is due.
 struct Stopped {};
 
-/// Says when work must end: at a request, or when its time is over. Many threads may ask at once.
+/// Says when work must end: when the end is requested, or when the time limit has passed. Many threads may
+/// ask at once.
 class Stop {
  public:
   using Clock = std::chrono::steady_clock;
@@ -27,7 +28,7 @@ class Stop {
     return never;
   }
 
-  /// Makes this Stop due after `time`, counted from now. Must be called before other threads ask.
+  /// Makes this Stop due after `time`, counted from now. Must be called before other threads use this Stop.
   void limit(std::chrono::duration<double> time) {
     // A time that is longer than the clock can represent is no limit.
     constexpr std::chrono::hours longest{24 * 365 * 10};

@@ -1,5 +1,5 @@
-// Replaces libFuzzer's engine, and runs a target once on each file: `fuzz_TARGET FILE_OR_FOLDER...`. Any
-// compiler can build this program, so the tests can run every target on its seeds and on former findings.
+// Takes the place of libFuzzer's engine. Runs a target once on each file: `fuzz_TARGET FILE_OR_FOLDER...`.
+// Any compiler can build this program, so the tests can run every target on its seeds and on former findings.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

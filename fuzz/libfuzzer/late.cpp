@@ -12,8 +12,8 @@ const Target target{.subject = "wang-time", .needs_lower_bounds = true, .takes_s
 
 namespace {
 
-/// How near a time is to t*, the exact earliest time, as a number that grows by two whenever (t* - time) / t*
-/// halves.
+/// A measure of how near a time is to t*, the exact earliest time. The number grows by two whenever (t* -
+/// time) / t* halves.
 std::size_t common_digits(double time, EarliestTime& earliest) {
   Enclosure known = earliest.known();
   if (time >= known.lo) known = earliest.enclosure();

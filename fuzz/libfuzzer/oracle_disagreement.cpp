@@ -1,4 +1,5 @@
-// libFuzzer target: a query on which the oracle's methods or the filter's instruction sets disagree.
+// libFuzzer target: a query on which the oracle's methods disagree, or on which the filter's results differ
+// between instruction sets.
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -31,7 +32,7 @@ bool filter_agrees(const Query& query, bool collision) {
   return !contradicts(first) && !contradicts(filter(query));
 }
 
-/// Shows libFuzzer the answers of all methods as numbers; each method has a range of numbers of its own.
+/// Shows libFuzzer the answers of all methods as numbers. Each method has its own range of numbers.
 void show_all(Kind kind, std::span<const Answer> answers) {
   const auto number = [](std::optional<bool> said) { return said ? (*said ? 2U : 1U) : 0U; };
   std::size_t before = 0;

@@ -11,16 +11,15 @@
 
 namespace nearmiss::libfuzzer {
 
-/// The number of bytes of an input without separation: one byte for the kind, then the 24 coordinates as in
-/// memory.
+/// The number of bytes of an input without a separation. Such an input has one byte for the kind, then the 24
+/// coordinates as they are in memory.
 inline constexpr std::size_t contact_bytes = 1 + sizeof(Query::x);
 
-/// The number of bytes of an input that has a positive separation after the coordinates. No input has more
-/// bytes.
+/// The number of bytes of an input with a separation, which follows the coordinates. No input has more bytes.
 inline constexpr std::size_t query_bytes = contact_bytes + sizeof(Query::separation);
 
-/// The query in an input; nothing if the input's size is wrong, a number is not finite, or the separation is
-/// negative.
+/// The query in an input. Returns nothing if the input's size is wrong, a number is not finite, or the
+/// separation is negative.
 inline std::optional<Query> from_bytes(const std::uint8_t* data, std::size_t size) {
   if (size != contact_bytes && size != query_bytes) return std::nullopt;
   Query query{.kind = kinds[data[0] % kinds.size()]};

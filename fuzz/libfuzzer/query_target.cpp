@@ -60,8 +60,8 @@ void show(Signal signal, Kind kind, std::size_t value) {
 
 void show_factor(Signal signal, Kind kind, double factor) {
   if (std::isnan(factor)) return;
-  // The exponent -log2(factor) is clamped to the range from 2^-10 to 2^8. If the exponent is half as large,
-  // the value that is shown is lower by four.
+  // The exponent -log2(factor) is clamped to the range from 2^-10 to 2^8. Whenever the exponent halves, the
+  // value that is shown falls by four.
   const double exponent = std::clamp(-std::log2(factor), 0x1p-10, 0x1p8);
   show(signal, kind, static_cast<std::size_t>(4 * (std::log2(exponent) + 10)));
 }
@@ -97,8 +97,8 @@ bool keeps_contract_of_subject(const Query& query) {
   return untraced([&] { return keeps_contract(subject().rounded(query), subject().contract()); });
 }
 
-/// The query in an input, without its separation if the target or the subject takes none. Returns nothing if
-/// the input is not a query, or not of a kind that the subject decides.
+/// The query in an input. If the target or the subject takes no separations, the query's separation is set to
+/// 0. Returns nothing if the input is not a query, or if the subject does not decide queries of its kind.
 std::optional<Query> asked(const std::uint8_t* data, std::size_t size) {
   auto query = from_bytes(data, size);
   if (query && !subject().decides(query->kind)) return std::nullopt;

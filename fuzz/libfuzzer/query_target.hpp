@@ -14,7 +14,8 @@ namespace nearmiss::libfuzzer {
 struct Target {
   const char* subject = "wang";     ///< the subject on trial, unless NEARMISS_SUBJECT names another one
   bool needs_lower_bounds = false;  ///< whether the subject must give times that are lower bounds
-  /// Whether queries may have a separation. If the target or the subject takes none, queries ask for contact.
+  /// Whether queries may have a separation. If the target or the subject takes no separations, queries ask
+  /// for contact.
   bool takes_separations = false;
 };
 
@@ -43,8 +44,9 @@ enum class Signal {
 /// query has values of its own.
 void show(Signal signal, Kind kind, std::size_t value);
 
-/// Shows libFuzzer how near `factor`, a number below 1, is to 1. The value that it shows is the number of a
-/// step on a scale whose steps become finer towards 1. If `factor` is NaN, shows nothing.
+/// Shows libFuzzer how near `factor`, a number below 1, is to 1. The numbers below 1 are divided into
+/// intervals, which become shorter towards 1, and the function shows the number of the interval that contains
+/// `factor`. If `factor` is NaN, shows nothing.
 void show_factor(Signal signal, Kind kind, double factor);
 
 /// Writes the query as a case of the failure `what` into the folder that the variable NEARMISS_CASES names,

@@ -1,4 +1,4 @@
-// libFuzzer target: the readers of OFF, PLY and STL files. Every reader gets every file.
+// libFuzzer target: the readers of OFF, PLY and STL files. Each input is passed to all three readers.
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "fuzz/libfuzzer/reader_target.hpp"

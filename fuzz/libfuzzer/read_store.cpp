@@ -1,6 +1,6 @@
-// libFuzzer target: the reader of stores, *.db, and the commands that use a store which this reader accepts.
-// The input has a line for each SQL statement that makes the store, because a store whose bytes are changed
-// at random would hardly ever get past its checksums.
+// libFuzzer target: the reader of stores, *.db, and the commands that use a store. The input is not a store
+// but the SQL statements that make a store, one per line. If libFuzzer changed the bytes of a store at
+// random, the reader would nearly always refuse the store because of a wrong checksum.
 #include "reports/store/store.hpp"
 
 #include <SQLiteCpp/SQLiteCpp.h>
@@ -66,7 +66,7 @@ class OpenStore {
     for (std::string line; std::getline(statements, line);) try_to([&] { db_.exec(line); });
   }
 
-  /// Corrects the checksums of all rows, and the recorded numbers of rows.
+  /// Corrects the checksums of all rows, and the numbers of rows that the store records.
   void seal() {
     for (const std::string& table : tables())
       try_to([&] {
@@ -133,7 +133,8 @@ std::string content(const fs::path& file) {
   return text.str();
 }
 
-/// Writes a campaign, reads it and writes it again: both files must have the same bytes.
+/// Writes a campaign to a file, reads the file, and writes the campaign again. Both files must have the same
+/// bytes.
 void expect_round_trip(const Campaign& campaign, const Folder& folder) {
   write_campaign(campaign, folder.file("once.db"));
   write_campaign(load_campaign(folder.file("once.db")), folder.file("twice.db"));

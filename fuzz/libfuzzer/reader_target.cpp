@@ -16,7 +16,7 @@ namespace nearmiss::libfuzzer {
 
 namespace {
 
-/// Whether two queries have the same bits; unlike ==, distinguishes 0 from -0.
+/// Whether two queries have the same bits. Unlike ==, this function distinguishes 0 from -0.
 bool same_bits(const Query& a, const Query& b) {
   return a.kind == b.kind && a.separation == b.separation &&
          std::memcmp(a.x.data(), b.x.data(), sizeof a.x) == 0;

@@ -1,5 +1,5 @@
 // Common parts of the libFuzzer targets for readers. A reader must accept a file or throw Error. Cases,
-// queries and campaigns that it accepts must stay the same when they are written and read again.
+// queries and campaigns that a reader accepts must stay the same when they are written and read again.
 #pragma once
 
 #include <iosfwd>

@@ -1,6 +1,6 @@
-// Writes the inputs that libFuzzer starts from. `fuzz_seeds FOLDER CASES...` writes the inputs of each target
-// into FOLDER/TARGET. They come from the cases in the files and folders CASES, and from some queries of each
-// family.
+// Writes the inputs from which libFuzzer starts. `fuzz_seeds FOLDER CASES...` writes the inputs of each
+// target into FOLDER/TARGET. The inputs are made from the cases in the files and folders CASES, and from some
+// queries of each family.
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gmpxx.h>
@@ -80,7 +80,7 @@ std::string obj(const Query& query) {
   return text + "vn 0 0 1\nvt 0 0\nf 1 2 3\nf 5/1 6/1 7/1 8/1\nf -8//1 -7//1 -6//1\nf 1/1/1 2/1/1 5/1/1\n";
 }
 
-/// A PLY file of two triangles. `numbers` has the text or the bytes after the header.
+/// A PLY file with two triangles. `numbers` is everything after the header, as text or as bytes.
 std::string ply(const std::string& encoding, const std::string& numbers) {
   return "ply\nformat " + encoding +
          " 1.0\nelement vertex 8\nproperty double x\nproperty double y\nproperty double z\nelement face 2\n"
@@ -174,8 +174,8 @@ Campaign campaign() {
   return campaign;
 }
 
-/// The SQL statements, one per line, that make the store of a campaign; in place of each checksum, they have
-/// 0. To get the statements, this function writes the store to `file`, and removes the file at the end.
+/// The SQL statements, one per line, that make the store of a campaign. Each checksum is replaced with 0. To
+/// get the statements, this function writes the store to `file`, and removes the file at the end.
 std::string statements_of(const Campaign& campaign, const fs::path& file) {
   fs::remove(file);
   write_campaign(campaign, file);
@@ -216,8 +216,8 @@ void write_seeds(const fs::path& folder, const std::vector<fs::path>& cases) {
     write("read_store", name + ".sql", statements_of(each, folder / "store.db"));
   for (const Case& each : cases_of(separation_families()))
     for (const char* target : {"false_negative", "late"}) write(target, each.name, bytes(each.query));
-  // One case in this many also becomes mesh files. A few mesh files are enough, since they differ little from
-  // each other.
+  // Mesh files are made from only one case in this many. A few mesh files are enough, since they differ
+  // little from each other.
   constexpr std::size_t one_in_with_meshes = 10;
   for (std::size_t number = 0; const Case& each : make_cases(cases)) {
     for (const char* target : {"false_negative", "late", "refuted_bound", "oracle_disagreement"})

@@ -14,8 +14,9 @@ struct PromiseTarget {
   Finding::What finds;
 };
 
-/// One target for each promise of the subject. A subject may promise that it misses no collision, that its
-/// times are lower bounds of the time of impact, and that its false positives stay within a distance bound.
+/// The targets for a subject, one for each of its promises. Every subject promises that it misses no
+/// collision. A subject may also promise that its times are lower bounds of the time of impact, and that its
+/// false positives stay within a distance bound.
 inline std::vector<PromiseTarget> targets_for(const Subject& subject) {
   std::vector<PromiseTarget> targets{{"false_negative", Finding::What::false_negative}};
   if (is_lower_bound(subject.time_sort())) targets.push_back({"late", Finding::What::late});

@@ -1,5 +1,5 @@
-// This file is compiled without coverage. If this file were compiled with coverage, the compiler itself would
-// declare the two names below, in conflict with their declarations here. If no file of the program has
+// This file is compiled without coverage. With coverage, the compiler itself would declare the two names
+// below, and its declarations would conflict with the declarations here. If no file of the program has
 // coverage, the names are undefined, and their addresses are null.
 #include "fuzz/libfuzzer/untraced.hpp"
 

@@ -18,9 +18,10 @@ class Untraced {
   std::vector<std::uint8_t> counters_;
 };
 
-/// Calls `ask`, and hides the coverage of this call from libFuzzer. Targets call the code that is not on
-/// trial, in most targets the oracle, through this function. Exact arithmetic has many branches; libFuzzer
-/// would follow these instead of the subject's branches, and take several times longer.
+/// Calls `ask`, and hides the coverage of this call from libFuzzer. Targets use this function to call code
+/// that is not on trial, which in most targets is the oracle. Exact arithmetic has many branches. Without
+/// this function, libFuzzer would follow these branches instead of the subject's branches, and would take
+/// several times longer.
 template <class Ask>
 auto untraced(const Ask& ask) {
   const Untraced guard;

@@ -24,10 +24,11 @@ class Lines {
   /// Goes on to the next line. Returns false at the end of the text.
   bool next();
 
-  /// The words of this line, at least one.
+  /// The words of this line. There is at least one.
   [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
 
-  /// The next word of this line, or the first word of the next line; empty at the end of the text.
+  /// The next word of this line. After the last word of this line, the first word of the next line; at the
+  /// end of the text, an empty word.
   std::string_view next_word();
 
   /// Makes next_word() continue with the next line.
@@ -67,7 +68,7 @@ double parse_decimal(std::string_view word, const Lines& lines);
 
 std::string lower_case(std::string_view word);
 
-/// A word as messages show it; an empty word stands for the end of the file.
+/// The word in the form in which messages show it. For an empty word, the result is "the end of the file".
 std::string shown(std::string_view word);
 
 }  // namespace nearmiss

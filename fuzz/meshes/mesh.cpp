@@ -13,7 +13,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Throws Error for the first difference between two lists of primitives.
+/// Throws Error if two lists of primitives differ. The message shows the first difference.
 template <std::size_t n>
 void expect_same(const std::vector<std::array<int, n>>& first, const std::string& first_name,
                  const std::vector<std::array<int, n>>& other, const std::string& other_name,

@@ -20,7 +20,8 @@ struct Mesh {
   std::vector<std::array<int, 2>> lines;
 };
 
-/// Adds the triangles of a polygon: a fan around its first vertex. Vertices count from 0.
+/// Adds the triangles of a polygon: a fan around the polygon's first vertex. `polygon` has the indices of its
+/// vertices, which count from 0.
 void add_polygon(Mesh& mesh, std::span<const long> polygon);
 
 /// Throws Error if the file `name` has no points, or more points than an int can count.
@@ -34,7 +35,8 @@ void expect_same_primitives(const Mesh& first, const std::string& first_name, co
 /// The connected components of a mesh.
 struct Bodies {
   int count = 0;
-  /// The body of each point. Bodies are numbered from 0, in the order of their first points.
+  /// The number of the body to which each point belongs. Bodies are numbered from 0, in the order of their
+  /// first points.
   std::vector<int> of_point;
 };
 
@@ -46,7 +48,8 @@ Bodies bodies(const Mesh& mesh);
 struct MovingMesh {
   std::vector<Vector3<double>> start, end;
   std::vector<std::array<int, 3>> triangles;
-  /// Each edge of the triangles and lines once, in ascending order; the smaller index of an edge comes first.
+  /// The edges of the triangles, and the lines. Each edge occurs once, and the edges are in ascending order.
+  /// The smaller index of an edge comes first.
   std::vector<std::array<int, 2>> edges;
   double separation = 0;  ///< the separation h in the queries of all pairs
 };

@@ -22,7 +22,7 @@ struct FaceOrPolyline {
 
 std::string_view name_of(bool is_face) { return is_face ? "face" : "polyline"; }
 
-/// The number of a vertex, as the file has it: v in "v", "v/vt", "v//vn" or "v/vt/vn".
+/// The number of a vertex as the file has it, which is v in "v", "v/vt", "v//vn" or "v/vt/vn".
 long parse_vertex(std::string_view word, bool is_face, const Lines& lines) {
   const auto vertex = parse_integer<long>(word.substr(0, word.find('/')));
   if (!vertex)
@@ -59,8 +59,8 @@ void add_polyline(Mesh& mesh, std::span<const long> polyline) {
     mesh.lines.push_back({static_cast<int>(polyline[i - 1]), static_cast<int>(polyline[i])});
 }
 
-/// Adds the triangles and lines. Throws Error if a vertex does not exist; since faces may come before their
-/// vertices, this is only known at the end of the file.
+/// Adds the triangles and lines. Throws Error if a vertex of a primitive does not exist. Only at the end of
+/// the file is it known which vertices exist, since faces may come before their vertices.
 void add_primitives(Mesh& mesh, const std::vector<FaceOrPolyline>& primitives, std::span<const long> vertices,
                     const Lines& lines) {
   const auto points = static_cast<long>(mesh.points.size());

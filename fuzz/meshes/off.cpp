@@ -17,8 +17,8 @@ using Words = std::span<const std::string_view>;
 
 constexpr int largest_int = std::numeric_limits<int>::max();
 
-/// Parses a number of vertices, faces or edges, or the index of a vertex. Throws Error unless the result is
-/// from 0 to `largest`.
+/// Parses a number of vertices or faces, or the index of a vertex. Throws Error unless the result is from 0
+/// to `largest`.
 int parse_count(std::string_view word, int largest, std::string_view what, const Lines& lines) {
   const auto count = parse_integer<int>(word);
   if (!count || *count < 0 || *count > largest)
@@ -32,7 +32,7 @@ Words after_keyword(Lines& lines) {
   const bool here = lines.next();
   const std::string_view keyword = here ? lines.words()[0] : std::string_view();
   std::string_view kind = keyword;
-  // Each of these prefixes of OFF announces further data of each vertex.
+  // Each of these prefixes of OFF announces that every vertex has further data.
   for (const std::string_view extra : {"ST", "C", "N"})
     if (kind.starts_with(extra)) kind.remove_prefix(extra.size());
   if (kind != "OFF") throw lines.error(shown(keyword), "OFF, or with ST, C or N before it");
@@ -55,8 +55,9 @@ MeshSize read_size(Lines& lines, std::string_view name) {
   return {vertices, parse_count(counts[1], largest_int, "a number of faces", lines)};
 }
 
-/// The words of the next line. It must have the vertex or face with number `index`, from 0; the file has
-/// `count` of these.
+/// Returns the words of the next line, which has a vertex or face. `index` is the number of this vertex or
+/// face, counted from 0, and `count` is the number of all vertices or faces. Throws Error if there is no
+/// further line.
 Words next_line(Lines& lines, std::string_view what, int index, int count) {
   if (!lines.next())
     throw lines.error("the end of the file", fmt::format("{} {} of {}", what, index + 1, count));

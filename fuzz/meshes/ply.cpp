@@ -20,7 +20,7 @@ namespace {
 
 // --- the header, which lists the numbers in the file and their order --------------------------------------
 
-/// A type of the numbers in a PLY file. A double can represent each number of this type.
+/// A type of the numbers in a PLY file. A double can represent every number of every type.
 struct NumberType {
   std::string_view name, other_name;
   std::size_t bytes;
@@ -130,7 +130,7 @@ const Property* find_face_vertices(const Element& face, std::string_view name) {
   return list;
 }
 
-/// Reads all lines of the header. Throws an Error that names the line.
+/// Reads all lines of the header. If a line is wrong, throws an Error that names this line.
 Header parse_header(Lines& lines) {
   if (next_keyword(lines, "ply") != "ply") throw lines.error(shown(lines.words()[0]), "ply");
   if (next_keyword(lines, "format") != "format" || lines.words().size() < 2)
@@ -184,7 +184,7 @@ class TextNumbers {
  public:
   explicit TextNumbers(Lines& lines) : lines_(lines) {}
 
-  /// The next number, which must be of this type; nothing at the end of the file.
+  /// The next number, which must be of this type. At the end of the file, returns nothing.
   std::optional<double> next(const NumberType& type) {
     const std::string_view word = lines_.next_word();
     if (word.empty()) return std::nullopt;
@@ -248,7 +248,8 @@ class BinaryNumbers {
   }
 
  private:
-  /// The number whose bits, in two's complement, are those of the unsigned integer `value`.
+  /// The number of the given type that has the same bits as the unsigned integer `value`. Signed types use
+  /// two's complement.
   static long signed_value(long value, const NumberType& type) {
     return value <= type.largest ? value : value + 2 * type.smallest;
   }
@@ -280,7 +281,8 @@ void expect_polygon(std::span<const long> polygon, std::size_t points, std::size
   if (polygon.size() < 3)
     throw Error(
         fmt::format("{}: found face {} of {} vertices, expected at least 3", name, number, polygon.size()));
-  const auto as_unsigned = [](long vertex) { return static_cast<std::size_t>(vertex); };  // -1 is the largest
+  // As an unsigned number, -1 is the largest of all.
+  const auto as_unsigned = [](long vertex) { return static_cast<std::size_t>(vertex); };
   const long worst = *std::ranges::max_element(polygon, {}, as_unsigned);
   if (as_unsigned(worst) >= points)
     throw Error(

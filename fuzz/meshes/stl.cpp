@@ -54,8 +54,8 @@ double read_coordinate(Lines& lines) {
   return parse_decimal(word, lines);
 }
 
-/// Reads a facet after the word "facet". The normal may be any three words, because exporters write nan for a
-/// degenerate facet.
+/// Reads the rest of a facet after the word "facet". The normal may be any three words, because some
+/// exporters write nan in the normal of a degenerate facet.
 std::array<TriangleSoup::Corner, 3> read_facet(Lines& lines) {
   expect_words(lines, {"normal"});
   for (int i = 0; i < 3; ++i) lines.next_word();
@@ -85,7 +85,7 @@ Mesh parse_text(std::string_view text, std::string_view name) {
 // --- bytes ------------------------------------------------------------------------------------------------
 
 constexpr std::size_t header_bytes = 80;
-/// The normal and three vertices, each of three floats, and two further bytes.
+/// The bytes of a facet: its normal and its three vertices, with three floats each, and two further bytes.
 constexpr std::size_t facet_bytes = 50;
 
 /// The size that a binary file has according to its header.

@@ -42,9 +42,9 @@ double quotient(double error, double length) {
   return length > 0 ? error / length : std::numeric_limits<double>::infinity();
 }
 
-/// Whether the points with these weights are farther apart than `most`, decided exactly. Computes with
-/// coordinates relative to x0. With absolute coordinates, weights whose sum is 1 - 2^-53 would move a point
-/// that is far from the origin.
+/// Whether the points with these weights are farther apart than `most`, decided exactly. The coordinates are
+/// relative to x0: with absolute coordinates, weights whose sum is 1 - 2^-53 would move a point that is far
+/// from the origin.
 bool are_farther(const Query& query, std::span<const double> weights, double most) {
   using exact::Number;
   Number squared(0);
@@ -84,7 +84,7 @@ double DistanceError::over_by_size() const { return std::min(quotient(over, size
 double DistanceError::under_by_size() const { return std::min(quotient(under, size), 1.0); }
 
 double over_limit(const Query& query, double distance) {
-  // nextafter lowers the smallest doubles, which a division by 1.01 does not change.
+  // nextafter lowers even the smallest doubles, which a division by 1.01 does not change.
   return std::min({distance / (1 + DistanceError::part_of_distance),
                    distance - DistanceError::part_of_size * size_of(query), std::nextafter(distance, 0)});
 }

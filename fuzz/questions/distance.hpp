@@ -1,4 +1,5 @@
-// The question how far apart two primitives at rest are, and how its answers are judged.
+// The question how far apart two primitives at rest are, and the code that judges the answers to this
+// question.
 #pragma once
 
 #include <array>
@@ -26,16 +27,16 @@ Query at_rest(const Query& query);
 
 /// How a subject's answer compares with the exact distance d of a query at rest.
 struct DistanceError {
-  /// A distance is wrong if it is off by more than 1 % of d and by more than 1e-4 of `size`. A careful
-  /// function stays within this tolerance, as long as its products neither overflow nor vanish. Conservative
-  /// advancement is still safe with such errors, because it keeps a part of the distance as a margin.
+  /// A distance is wrong if its error exceeds both 1 % of d and 1e-4 of `size`. A careful function stays
+  /// within this tolerance, as long as its products neither overflow nor vanish. Conservative advancement is
+  /// still safe with such errors, because it keeps a part of the distance as a margin.
   static constexpr double part_of_distance = 0.01, part_of_size = 1e-4;
 
   /// An interval that contains d; its relative width is below 2^-44, or as small as doubles allow.
   Enclosure exact;
   double size = 0;              ///< the largest side of the box around both primitives
-  double over = 0;              ///< answer - d, rounded up; 0 if the answer is not larger
-  double under = 0;             ///< d - answer, rounded up; 0 if the answer is not smaller
+  double over = 0;              ///< answer - d, rounded up; 0 if the answer is at most d
+  double under = 0;             ///< d - answer, rounded up; 0 if the answer is at least d
   bool over_reported = false;   ///< the answer is wrong, and larger than d, which is unsafe
   bool under_reported = false;  ///< the answer is wrong, and smaller than d
   /// The weights do not add up to 1, are negative, or give points that are too far apart.
@@ -53,8 +54,8 @@ struct DistanceError {
 /// Judges an answer that has no fault. The query must be at rest, and rounded as the subject rounds it.
 DistanceError error_of(const Query& query, const DistanceAnswer& answer);
 
-/// The answer `distance` minus the error that the judge tolerates. The result is rounded, and may be
-/// negative. The answer is over-reported if the result is positive and at least the exact distance.
+/// The answer `distance` minus the error that is tolerated. The result is rounded, and may be negative. The
+/// answer is over-reported if the result is positive and not below the exact distance.
 double over_limit(const Query& query, double distance);
 
 /// Whether the answer `distance` is over-reported (DistanceError::over_reported). Takes less time than
@@ -109,15 +110,15 @@ struct DistanceQuestion {
   };
 
   static bool is_answered(const Subject& subject, Kind kind) { return subject.gives_distance(kind); }
-  /// Asks about the primitives at the start of a query. Returns nothing if the query breaks the subject's
-  /// contract, or the subject is not asked any more.
+  /// Asks how far apart the primitives are at the start of a query. Returns nothing if the query breaks the
+  /// subject's contract, or if the subject is not asked any more.
   static std::optional<Judged> ask(const Subject& subject, const Query& query);
-  /// The closest features, such as "ee edge-edge" or "ee touching"; if the subject gave no answer, the sort
+  /// The closest features, such as "ee edge-edge" or "ee touching". If the subject gave no answer, the sort
   /// of fault.
   static std::string signature(const Subject& subject, const Judged& judged);
-  /// The families "search-over-NAME" and "v-search-over-NAME": each query has the largest over_by_size() that
-  /// a search found. A fault ends a search. Making a query throws Stopped when `stop` is due. The subject and
-  /// `stop` must outlive the families.
+  /// The families "search-over-NAME" and "v-search-over-NAME". Each query is the result of a search: the
+  /// query with the largest over_by_size() that the search found. A fault ends a search. If `stop` is due
+  /// while a query is made, Stopped is thrown. The subject and `stop` must outlive the families.
   static std::vector<Family> searches(const Subject& subject, const Stop& stop);
 };
 

@@ -1,5 +1,5 @@
-// Trials of two questions other than collision: the distance of primitives at rest (distance.hpp), and the
-// step that a filter permits (step.hpp).
+// Trials that ask two questions other than whether primitives collide: the distance of primitives at rest
+// (distance.hpp), and the step that a filter permits (step.hpp).
 #pragma once
 
 #include <fmt/format.h>
@@ -80,8 +80,8 @@ struct QuestionPlan {
 /// How long findings may still be shrunk after the time limit has passed.
 inline constexpr std::chrono::seconds question_grace(5);
 
-/// Puts subjects on trial: in each round, asks them about some queries of every family. Shrinks the findings
-/// at the end.
+/// Puts subjects on trial. In each round, asks the subjects about some queries of every family. At the end,
+/// shrinks the findings.
 template <class Question>
 class QuestionTrial {
  public:
@@ -98,8 +98,8 @@ class QuestionTrial {
         sources_.push_back({std::move(family), subject.get()});
   }
 
-  /// Runs until the number of cases is reached or the stop is due. Calls `show` with the number of queries so
-  /// far.
+  /// Runs until the number of cases is reached or the stop is due. Calls `show` again and again, with the
+  /// number of queries asked so far.
   Results run(const std::function<void(std::uint64_t)>& show) {
     in_order<Work>(
         plan_.jobs, [&] { return next(); }, [&](Work& work) { perform(work); },
@@ -116,7 +116,8 @@ class QuestionTrial {
  private:
   static constexpr std::uint64_t one_in_asked_twice = 256;
 
-  /// A family. If `only` is not null, only this subject is asked about the family's queries.
+  /// A family. If `only` is not null, the subject `only` is the only one that is asked about the family's
+  /// queries.
   struct Source {
     Family family;
     const Subject* only;
@@ -157,7 +158,7 @@ class QuestionTrial {
       const auto of_kinds = static_cast<std::uint64_t>(
           std::ranges::count_if(source.family.kinds, [&](Kind kind) { return can_ask(source, kind); }));
       if (of_kinds == 0) continue;
-      // A family has two kinds of queries, and each kind has half of the block.
+      // A family has queries of two kinds, and each kind has half of the queries of a block.
       const std::uint64_t block = source.only != nullptr ? 2 : 4 * source.family.block_cases;
       const std::uint64_t first = block * round_;
       planned_ += of_kinds * block / 2;
@@ -217,8 +218,8 @@ class QuestionTrial {
     work.results.findings.push_back(std::move(finding));
   }
 
-  /// Adds results. Leaves out each finding that has the failure, subject, signature and class of an earlier
-  /// finding.
+  /// Adds results. Leaves out a finding if an earlier finding has the same failure, subject, signature and
+  /// class.
   void take(Results&& results) {
     for (const auto& [key, each] : results.counts) asked_ += each.queries;
     std::erase_if(results.findings, [&](const QuestionFinding& each) {
@@ -227,8 +228,8 @@ class QuestionTrial {
     results_.merge(std::move(results));
   }
 
-  /// Replaces the finding's query by the simplest query that fails in the same way and has the same class, as
-  /// far as time allows.
+  /// Replaces the finding's query by the simplest query that it finds in time. That query fails in the same
+  /// way, has the same class, and is not more exotic (NoMoreExotic).
   void shrink(QuestionFinding& finding) const {
     try {
       shrink_within(finding, question_grace);
@@ -270,8 +271,8 @@ class QuestionTrial {
 
 /// The sum of the counts of all classes.
 std::uint64_t sum(const QueryClassCounts& counts);
-/// The sum of the counts of all classes except extreme, whose failures are shown but do not set the exit
-/// code.
+/// The sum of the counts of all classes except extreme. Failures in extreme queries are shown, but do not set
+/// the exit code.
 std::uint64_t sum_that_counts(const QueryClassCounts& counts);
 
 /// A directed search as two families: NAME for vt and ee queries, v-NAME for vv and ve queries. Each block
@@ -279,11 +280,11 @@ std::uint64_t sum_that_counts(const QueryClassCounts& counts);
 std::vector<Family> search_families(std::string name, std::string about,
                                     std::function<Query(Random&, Kind)> make);
 
-/// The families among which a user can choose: the families of campaigns. If `at_rest` is true, the families
-/// at rest come first.
+/// The families among which a user can choose. These are the families of campaigns; if `at_rest` is true, the
+/// families at rest come before them.
 std::vector<Family> families_of_questions(bool at_rest);
-/// The families whose queries a trial asks by default: families_of_questions() without the extreme families,
-/// in which even careful functions overflow.
+/// The families whose queries a trial asks by default. These are all families of families_of_questions()
+/// except the extreme families, in whose queries even careful functions overflow.
 std::vector<Family> usual_families_of_questions(bool at_rest);
 
 }  // namespace nearmiss

@@ -29,7 +29,7 @@ Query to_positions(const Query& query, const std::array<double, 12>& y) {
 }
 
 /// The part of the motion of `whole` that the motion of `step` covers, rounded. Both motions are first
-/// divided by the largest component of the motion of `whole`, so that nothing overflows or vanishes.
+/// divided by the largest component of the motion of `whole`, so that no product overflows or vanishes.
 double part_of(const Query& step, const Query& whole) {
   double largest = 0;
   const auto motion = [](const Query& query, std::size_t i) { return query.x[12 + i] / 2 - query.x[i] / 2; };

@@ -20,8 +20,8 @@
 
 namespace nearmiss {
 
-/// The template argument of QuestionTrial for the question which part of a step is safe. Only primitives that
-/// are apart at t = 0 are asked about.
+/// The template argument of QuestionTrial for the question which part of a step is safe. The question is
+/// asked only about primitives that are apart at t = 0.
 struct StepQuestion {
   struct Judged {
     Query query;  ///< the query without a separation, rounded as the subject rounds it
@@ -35,8 +35,7 @@ struct StepQuestion {
     /// original step that the filtered step covers, divided by the earliest time of contact, or by 1 if there
     /// is no contact.
     double kept = 0;
-    /// Whether the filter changes the original step, although the primitives do not touch in the original
-    /// step.
+    /// Whether the filter changes the original step although the primitives do not touch in it.
     bool cuts_free = false;
     bool objects = false;  ///< whether the filter would change the filtered step again
 
@@ -53,7 +52,7 @@ struct StepQuestion {
   };
 
   struct Counts {
-    /// The number of steps about which the subject was asked, within its contract.
+    /// The number of steps about which the subject was asked. Steps that break its contract do not count.
     std::uint64_t queries = 0;
     QueryClassCounts faults_by_class{};  ///< steps without an answer
     QueryClassCounts unsafe_by_class{};  ///< unsafe filtered steps
@@ -78,8 +77,8 @@ struct StepQuestion {
   };
 
   static bool is_answered(const Subject& subject, Kind kind) { return subject.filters_step(kind); }
-  /// Asks about a query's step. Returns nothing if the primitives touch at t = 0, the query breaks the
-  /// subject's contract, or the subject is not asked any more.
+  /// Asks the subject to filter the query's step. Returns nothing if the primitives touch at t = 0, if the
+  /// query breaks the subject's contract, or if the subject is not asked any more.
   static std::optional<Judged> ask(const Subject& subject, const Query& query);
   /// If the filtered step makes contact, returns the features of the first contact. If the primitives only
   /// come nearer than the clearance, returns the features that first reach the clearance. If the subject gave

@@ -58,12 +58,13 @@ class CandidatePasser {
 
 // --- by a hierarchy of boxes ----------------------------------------------------------------------------
 
-/// Consecutive rows (pair_rows) whose vertices (or edges) are near each other, and the partners of these
-/// rows: the triangles (or edges) near their vertices (or edges).
+/// A block of consecutive rows (see pair_rows) whose vertices (or edges) are near each other. The partners of
+/// the block are the triangles (or edges) whose boxes meet the box around the block.
 class Block {
  public:
-  /// Begins the block with row `first`. The block ends at the latest before row `end`, after 16 rows, or
-  /// before the size of the box around its rows would exceed `most`. Returns the first row after the block.
+  /// Begins the block with row `first`. Adds the following rows until the block has 16 rows, the next row is
+  /// `end`, or the next row would enlarge the box around the block to a size above `most`. Returns the first
+  /// row after the block.
   std::size_t start(const PrimitiveBoxes& boxes, std::size_t first, std::size_t end, std::int64_t most) {
     first_ = first;
     bounds_ = boxes[first];
@@ -79,7 +80,8 @@ class Block {
     return first_ + rows_.size();
   }
 
-  /// Collects the partners near the block whose numbers are at least `least`, in the order of their numbers.
+  /// Collects the partners of the block in the order of their numbers. Leaves out partners whose number is
+  /// below `least`.
   void collect(const CellTree& tree, const PrimitiveBoxes& partners, std::int32_t least) {
     numbers_.clear();
     tree.find(bounds_, least, [&](std::int32_t number) { numbers_.push_back(number); });
@@ -90,8 +92,9 @@ class Block {
                                         partners[static_cast<std::size_t>(numbers_[i])], numbers_[i]);
   }
 
-  /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and of the partners.
-  /// If `after` is true, leaves out partners whose number is not larger than the row's.
+  /// Calls pass(row, partner) for the pairs whose boxes meet, in the order of the rows and, within a row, of
+  /// the partners. If `after` is true, compares a row only with partners whose number is larger than the
+  /// row's.
   template <class Pass>
   void compare(bool after, const Pass& pass) const {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -114,8 +117,8 @@ class Block {
   std::vector<CellBoxGroup> near_;
 };
 
-// The largest size of a block, as a multiple of CellTree::typical_group(). Larger blocks cost more
-// comparisons, smaller blocks more searches of the tree.
+// The largest size of a block, as a multiple of CellTree::typical_group(). Larger blocks need more
+// comparisons of boxes; smaller blocks need more searches of the tree.
 constexpr std::int64_t block_groups = 2;
 
 }  // namespace

@@ -40,26 +40,26 @@ using IsOver = std::function<bool()>;
 inline const IsOver never_over = [] { return false; };
 
 /// Finds those pairs of a kind whose swept boxes meet, or are at most the mesh's separation apart along every
-/// axis (oracle/filter/box.hpp). Boxes that only touch also meet. Pairs come in the order of rows (pair_rows
-/// below). Within a row, they come in the order of the triangles (vertex-triangle), or of the edges after the
-/// row's edge (edge-edge). A part consists of consecutive rows; the division into parts depends only on the
-/// number of rows. Any thread may search any part.
+/// axis (oracle/filter/box.hpp). Boxes that only touch also meet. Pairs come in the order of their rows
+/// (pair_rows below). Within a row, vertex-triangle pairs come in the order of the triangles; edge-edge pairs
+/// come in the order of the edges that follow the row's edge. A part consists of consecutive rows; the
+/// division into parts depends only on the number of rows. Any thread may search any part.
 class CandidateFinder {
  public:
-  /// The mesh must outlive this object, unless `move` replaces it. Throws Stopped when `is_over` returns
-  /// true, and Error for a coordinate that is not finite.
+  /// The mesh must exist as long as this object uses it: until `move` replaces the mesh, or until this object
+  /// is destroyed. Throws Stopped when `is_over` returns true, and Error for a coordinate that is not finite.
   CandidateFinder(const MovingMesh& mesh, Kind kind, int jobs, const IsOver& is_over);
   CandidateFinder(MovingMesh&& mesh, Kind kind, int jobs, const IsOver& is_over) = delete;
 
-  /// Goes on to `mesh`, another step of the same scene. After an exception, the object must not be used any
-  /// more.
+  /// Goes on to `mesh`, another step of the same scene. If this function throws an exception, the object must
+  /// not be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const;
 
-  /// Passes each pair of a part to `sink` once, except pairs of primitives with a common vertex, and returns
-  /// the number of these excepted pairs. Stores no pairs, so a scene of any size can be streamed. Calls
-  /// `is_over` now and then, and returns early if it returns true.
+  /// Passes each pair of a part to `sink` once, except pairs of primitives with a common vertex. Returns the
+  /// number of these excepted pairs. Stores no pairs, so the memory that it takes does not grow with the
+  /// number of pairs. Calls `is_over` now and then. If `is_over` returns true, this function returns early.
   std::uint64_t find(std::size_t part, const CandidateSink& sink, const IsOver& is_over) const;
 
  private:
@@ -78,9 +78,9 @@ class CandidateFinder {
 /// Finds all candidates of both kinds, vertex-triangle pairs first. Ends early when `is_over` returns true.
 void find_candidates(const MovingMesh& mesh, const CandidateSink& sink, const IsOver& is_over = never_over);
 
-/// The number of rows into which all pairs of a kind are divided, whether their boxes meet or not.
-/// Vertex-triangle: a row has the pairs of one vertex with all triangles. Edge-edge: a row has the pairs of
-/// one edge with all later edges.
+/// The number of rows into which all pairs of a kind are divided, whether their boxes meet or not. A row of
+/// vertex-triangle pairs has the pairs of one vertex with all triangles. A row of edge-edge pairs has the
+/// pairs of one edge with all later edges.
 std::size_t pair_rows(const MovingMesh& mesh, Kind kind);
 
 /// Passes each pair of a row to `sink`, except pairs of primitives with a common vertex. Returns the number

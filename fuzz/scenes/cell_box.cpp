@@ -44,8 +44,8 @@ class Grid {
     if (half > 0) per_unit_ = std::min(cells / half, std::numeric_limits<double>::max());
   }
 
-  /// The cell of a coordinate along axis k; for a coordinate outside the mesh's bounds, the cell of the
-  /// nearest bound. Every operation is monotone, including the conversion, which truncates.
+  /// The cell of a coordinate along axis k. If the coordinate is outside the mesh's bounds, the cell of the
+  /// nearest bound. Every operation is monotone, including the conversion to an integer, which truncates.
   [[nodiscard]] Cell cell(double x, int k) const {
     return static_cast<Cell>((std::clamp(x, lo_[k], hi_[k]) - centre_[k]) * per_unit_);
   }
@@ -59,7 +59,8 @@ class Grid {
 
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs) {
   const Grid grid(mesh);
-  // boxes_meet() rounds the distances that it compares, but accepts no distance above twice this margin.
+  // The margin by which each box is enlarged. boxes_meet() rounds the distances that it compares with the
+  // separation, but it accepts no distance above twice this margin.
   const double half = mesh.separation > 0 ? above(mesh.separation / 2) : 0;
   std::vector<CellBox> boxes(mesh.start.size());
   constexpr std::size_t chunk = 1 << 13;

@@ -42,23 +42,24 @@ struct CellBox {
   bool operator==(const CellBox&) const = default;
 };
 
-/// For each vertex of a mesh, the box that it sweeps, measured in cells. Each box is enlarged on all sides by
-/// half of the mesh's separation. If the swept boxes of two primitives pass the test of boxes_meet
-/// (oracle/filter/box.hpp), the boxes around the cells of their vertices meet. The converse is nearly true,
-/// since a cell is 2^-31 of the mesh's largest extent.
+/// Returns, for each vertex of a mesh, the box of cells that the vertex sweeps. Each box is enlarged on all
+/// sides by half of the mesh's separation. Consider two primitives, and for each of them the smallest box
+/// around the boxes of its vertices. If the primitives pass the test of boxes_meet (oracle/filter/box.hpp),
+/// these two boxes of cells meet. The converse is nearly true, since the side of a cell is 2^-31 of the
+/// mesh's largest extent.
 ///
-/// Rounding errors do not keep the boxes of cells from meeting: all operations that turn a coordinate into a
-/// cell are monotone even when rounded, so coordinates x <= y have cells cell(x) <= cell(y). Works on `jobs`
-/// threads. Throws Error for a coordinate that is not finite.
+/// Rounding errors do not keep boxes of cells from meeting. All operations that turn a coordinate into a cell
+/// are monotone even when rounded, so coordinates x <= y have cells cell(x) <= cell(y). Uses `jobs` threads.
+/// Throws Error for a coordinate that is not finite.
 std::vector<CellBox> swept_cells(const MovingMesh& mesh, int jobs);
 
 /// The boxes of the vertices, edges or triangles of a mesh.
 class PrimitiveBoxes {
  public:
-  /// The boxes of vertices, which must outlive this object.
+  /// The boxes of vertices. The list `of_vertices` must outlive this object.
   explicit PrimitiveBoxes(const std::vector<CellBox>& of_vertices)
       : of_vertices_(of_vertices.data()), count_(of_vertices.size()) {}
-  /// The boxes around primitives with n vertices each. Both lists must outlive this object.
+  /// The boxes around primitives that have n vertices each. Both lists must outlive this object.
   template <std::size_t n>
   PrimitiveBoxes(const std::vector<CellBox>& of_vertices, const std::vector<std::array<int, n>>& primitives)
       : of_vertices_(of_vertices.data()), count_(primitives.size()), corners_(n) {

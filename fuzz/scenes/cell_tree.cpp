@@ -49,8 +49,8 @@ class SpatialOrder {
     sort_part(second);
   }
 
-  /// Divides boxes along the longest axis of their extent. The size of the first half is a power of two, so
-  /// that no group has boxes of both halves.
+  /// Divides boxes into two halves, along the axis on which the centres of the boxes extend farthest. The
+  /// size of the first half is a power of two, so that no group has boxes of both halves.
   [[nodiscard]] std::pair<Items, Items> halved(Items part) const {
     if (part.size() <= group_size) return {part, {}};
     if (part.size() > checked && is_over_()) throw Stopped();
@@ -69,7 +69,7 @@ class SpatialOrder {
     return {part.first(middle), part.subspan(middle)};
   }
 
-  // Smaller parts are sorted without asking whether the work must end, because sorting such a part takes less
+  // Only parts with more boxes than this ask whether the work must end. Sorting a smaller part takes less
   // than a millisecond.
   static constexpr std::size_t checked = 1 << 13;
 

@@ -48,7 +48,8 @@ class CellBoxGroup {
 
  private:
   using Places = std::array<std::int32_t, size>;
-  /// Comparing two such vectors compares their elements in parallel; each element of the result is -1 or 0.
+  /// A comparison of two such vectors compares their elements in parallel. Each element of its result is -1
+  /// (true) or 0 (false).
   using Vector [[gnu::vector_size(sizeof(Places))]] = std::int32_t;
 
   static Vector vector(const Places& places) {
@@ -56,7 +57,7 @@ class CellBoxGroup {
     std::memcpy(&made, &places, sizeof made);
     return made;
   }
-  /// Returns one bit for each place: whether for_meeting visits the place.
+  /// Returns a bit for each place. The bit is set if for_meeting() visits the place.
   [[nodiscard]] unsigned meeting(const CellBox& box, std::int32_t least) const {
     Vector apart = vector(numbers_) < least;
     for (std::size_t k = 0; k < 3; ++k) apart |= (vector(lo_[k]) > box.hi[k]) | (vector(hi_[k]) < box.lo[k]);
@@ -68,10 +69,10 @@ class CellBoxGroup {
   Places numbers_;
 };
 
-/// A tree of groups. A group of the lowest level has boxes of primitives that are near each other. A group of
-/// the next level has the bounds of such groups, and so on. The groups are chosen at the first step of a
-/// mesh. Later steps move the boxes and keep the groups. New groups are chosen when the groups' bounds,
-/// compared with the primitives' boxes, have become much larger.
+/// A tree of groups. A group of the lowest level has the boxes of primitives that are near each other. A
+/// group of the next level has the bounds of groups of the lowest level, and so on. The groups are chosen at
+/// the first step of a mesh. Later steps move the boxes and keep the groups. New groups are chosen when the
+/// groups' bounds have grown much more than the primitives' boxes.
 class CellTree {
  public:
   /// Throws Stopped when `is_over` returns true.

@@ -12,7 +12,7 @@ namespace nearmiss {
 namespace {
 
 constexpr std::size_t timed_pairs = 20000;
-// The number of measurements. The result is the shortest measured time, since disturbances only add time.
+// The number of measurements. The shortest measured time counts, since disturbances only add time.
 constexpr int timings = 5;
 
 double quickest_ns(const Subject& subject, const std::vector<Query>& queries) {

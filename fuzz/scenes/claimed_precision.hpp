@@ -1,5 +1,5 @@
-// The precision that subjects claim for a scene, the cheapest subject that is precise enough, and the largest
-// B (size of a pair) in a scene.
+// The precision that subjects claim for a scene, the fastest subject that is precise enough, and the bound B
+// of a scene.
 #pragma once
 
 #include <cstddef>
@@ -27,11 +27,12 @@ struct ClaimedPrecision {
 std::vector<ClaimedPrecision> claimed_precisions(const Scene& scene, LeaveOut leave_out,
                                                  const Subjects& subjects);
 
-/// The cheapest subject whose claimed distance is at most `thickness`; null if there is no such subject.
+/// Among the subjects whose `claimed` is at most `thickness`, the one that takes the least time per query.
+/// Null if there is no such subject.
 const ClaimedPrecision* cheapest_within(const std::vector<ClaimedPrecision>& all, double thickness);
 
-/// The largest B, the size of a pair (§5 of Wang's paper), among the pairs whose boxes meet in some step,
-/// rounded up to four digits.
+/// The bound B of a scene: the largest bound B (§4.1 of Wang's paper) of the pairs whose boxes meet in some
+/// step, rounded up to four digits.
 double scene_bound(const Scene& scene);
 
 }  // namespace nearmiss

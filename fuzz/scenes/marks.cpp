@@ -17,14 +17,15 @@ namespace nearmiss {
 
 namespace {
 
-// The largest number of marked primitives in a picture, and also of unmarked primitives.
+// A picture has at most this many marked primitives, and at most this many unmarked primitives.
 constexpr std::size_t most_primitives = 8000;
 constexpr std::uint32_t collides = 1, tangled = 2;
 constexpr std::size_t most_subjects = 15;  // bits of a mark: 2 + 2 * 15
 constexpr std::uint32_t falsely_reported_by(std::size_t subject) { return 4U << (2 * subject); }
 constexpr std::uint32_t missed_by(std::size_t subject) { return 8U << (2 * subject); }
 
-/// The mark (a set of the bits above) of the primitive with the vertices `primitive`; 0 if it has none.
+/// The mark (a set of the bits above) of the primitive whose vertices are `primitive`; 0 if this primitive
+/// has no mark.
 template <class Key>
 std::uint32_t mark_of(const std::map<Key, std::uint32_t>& marks, const Key& primitive) {
   const auto found = marks.find(primitive);
@@ -187,7 +188,7 @@ void Marks::add_surfaces(const MovingMesh& mesh, Primitives& primitives) const {
       primitives.add(Vertices(e.begin(), e.end()), mark_of_primitive(edges_, e));
 }
 
-/// Adds the points that have a mark, or are in no edge and no triangle.
+/// Adds the points that have a mark, and the points that are in no edge and no triangle.
 void Marks::add_points(const MovingMesh& mesh, Primitives& primitives) const {
   std::vector<bool> in_primitive(mesh.start.size());
   for (const auto& t : mesh.triangles)

@@ -49,8 +49,8 @@ Query perturbed(Random& random, Query query, double size) {
   return query;
 }
 
-/// Translates the first primitive, by the same vector at both ends of the step, so that it touches the second
-/// one at the time and place that `aim` gives.
+/// Translates the first primitive so that it touches the second primitive at the time and place that `aim`
+/// gives. The translation is the same at both ends of the step.
 Query touching(const Query& query, const Aim& aim) {
   const double alpha = aim.alpha;
   const double beta = aim.beta;
@@ -62,8 +62,8 @@ Query touching(const Query& query, const Aim& aim) {
   return with_first_moved(query, second - first);
 }
 
-/// The query, changed as near_families() says. If the query is perturbed, each changed coordinate moves by up
-/// to `size` times the extent of the query.
+/// The query, changed as near_families() says. If the query is perturbed, each coordinate changes by up to
+/// `size` times the extent of the query.
 Query changed(Random& random, const Query& given, double size) {
   Query query = given;
   if (random.one_in(2)) query = touching(query, ContactSampler(random).aim(query.kind));

@@ -45,17 +45,18 @@ class PairSample {
   std::map<Kind, std::vector<Kept>> kept_;  ///< heaps
 };
 
-/// Families that draw from the given queries. Half of the drawn queries get contact: one primitive is moved
-/// so that the primitives touch at a random time, up to rounding. Then each query stays as it is, is
-/// perturbed, or has some coordinates moved by ulps. `near` has the vt and ee queries that ask for contact,
-/// and `near-within` the vt and ee queries with separations. `v-near` has the vv and ve queries that ask for
-/// contact, and `v-near-within` the vv and ve queries with separations. A family without queries is left out.
+/// Families that draw from the given queries. In half of the drawn queries, one primitive is moved so that
+/// the primitives touch at a random time, up to rounding. Then each drawn query, with or without such
+/// contact, is left as it is, is perturbed, or has some coordinates moved by a few ulps. `near` has the vt
+/// and ee queries that ask for contact, and `near-within` the vt and ee queries with separations. `v-near`
+/// has the vv and ve queries that ask for contact, and `v-near-within` the vv and ve queries with
+/// separations. A family without queries is left out.
 std::vector<Family> near_families(std::span<const Query> queries);
 
 /// The family `mesh`. It draws pairs whose swept boxes meet in a step of the scene, and varies them as
 /// near_families() varies queries. At most `most` pairs of each kind are kept; the choice depends only on the
-/// scene. If all pairs are of one kind, only queries of that kind are asked. Throws Error if there is no
-/// pair, and Stopped if the stop is due before all pairs are known.
+/// scene. If all pairs are of one kind, only queries of that kind are asked. Throws Error if there is no such
+/// pair. Throws Stopped if the stop is due before all pairs have been found.
 Family mesh_family(const Scene& scene, const Stop& stop = Stop::never(), std::size_t most = 1 << 15);
 
 }  // namespace nearmiss

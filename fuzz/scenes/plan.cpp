@@ -36,7 +36,7 @@ class FateTeller {
     if (found_.size() == batch_pairs) tell_fates();
   }
 
-  /// The total time in which this object decided what to do with the pairs, and passed them on.
+  /// The total time that this object has taken to decide what to do with the pairs, and to pass them on.
   [[nodiscard]] std::uint64_t nanoseconds() const { return nanoseconds_; }
   [[nodiscard]] Funnel finish() {
     tell_fates();
@@ -82,8 +82,8 @@ class FateTeller {
 }  // namespace
 
 std::pair<PairFate, bool> fate(const Query& query) {
-  // With a separation, subjects are asked about every pair: meets_by_translation() can only decide whether
-  // primitives touch.
+  // Subjects are asked about every pair with a separation, since meets_by_translation() can only decide
+  // whether primitives touch.
   const RelativeMotion motion = query.separation > 0 ? RelativeMotion::other : relative_motion(query);
   if (motion == RelativeMotion::other) return {PairFate::asked, false};
   const auto meets = meets_by_translation(query);

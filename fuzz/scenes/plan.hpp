@@ -18,14 +18,15 @@ enum class LeaveOut : std::uint8_t {
   nothing,
   boxes,  ///< the plan leaves out the pairs whose swept boxes do not meet
   /// The plan leaves out the same pairs as with `boxes`. If the queries have no separation, the plan also
-  /// leaves out the pairs at relative rest or in relative translation.
+  /// leaves out the pairs at relative rest or in relative translation that meets_by_translation() can decide.
   all,
 };
 
 using Funnels = std::map<Kind, Funnel>;
 
-/// Decides under LeaveOut::all what happens to a pair whose swept boxes meet, or are at most the separation
-/// apart. If no subject is asked about the pair, the second value of the result says whether it collides.
+/// Says what a plan with LeaveOut::all does with a pair whose swept boxes meet, or are at most the separation
+/// apart. If no subject is asked about the pair, the second value of the result says whether the pair
+/// collides.
 std::pair<PairFate, bool> fate(const Query& query);
 
 /// Pairs of one kind about which subjects are asked.
@@ -38,20 +39,21 @@ struct AskedPairs {
 /// Receives one or more pairs at a time.
 using AskSink = std::function<void(const AskedPairs&)>;
 
-/// Receives a pair whose boxes meet, but that the plan decides without a subject. `collides` is the plan's
+/// Receives a pair whose boxes meet and that the plan decides without a subject. `collides` is the plan's
 /// decision.
 using DecidedSink = std::function<void(const Candidate&, const Query&, PairFate, bool collides)>;
 
 /// Divides the pairs of a step into parts, which any thread may process.
 class Plan {
  public:
-  /// The mesh must outlive this object, unless `move` replaces it. The constructor makes the parts with
-  /// `jobs` threads. Throws Stopped when `is_over` returns true.
+  /// The mesh must exist as long as this object uses it: until `move` replaces the mesh, or until this object
+  /// is destroyed. The constructor uses `jobs` threads. Throws Stopped when `is_over` returns true.
   Plan(const MovingMesh& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over);
   Plan(MovingMesh&& mesh, LeaveOut leave_out, int jobs = 1, const IsOver& is_over = never_over) = delete;
 
-  /// Goes on to `mesh`, another step of the same scene. The result equals a new Plan of `mesh`, but a new
-  /// Plan takes longer to make. After an exception, the object must not be used any more.
+  /// Goes on to `mesh`, another step of the same scene. This object then equals a new Plan of `mesh`; to move
+  /// a Plan takes less time than to make a new one. If this function throws an exception, the object must not
+  /// be used any more.
   void move(const MovingMesh& mesh, int jobs, const IsOver& is_over);
 
   [[nodiscard]] std::size_t parts() const { return parts_.size(); }
@@ -63,8 +65,8 @@ class Plan {
   Funnels follow(std::size_t part, const AskSink& ask, const DecidedSink& decided,
                  const IsOver& is_over) const;
 
-  /// Returns what the parts lack: the number of pairs whose boxes do not meet, and the time that it took to
-  /// make the parts. `parts` is the sum of what follow() returned for all parts.
+  /// Returns the numbers that are in no part: the number of pairs whose boxes do not meet, and the time that
+  /// it took to make the parts. `parts` is the sum of what follow() returned for all parts.
   [[nodiscard]] Funnels rest(const Funnels& parts) const;
 
  private:

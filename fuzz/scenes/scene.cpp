@@ -85,8 +85,8 @@ std::vector<std::size_t> first_in_place(const std::vector<Vector3<double>>& poin
 }
 
 /// The points of a frame that remain after points are merged. If several points are in one place at frame 0,
-/// only the point with the lowest index is kept. Throws Error if another of these points is no longer in the
-/// place of the kept point.
+/// only the point with the lowest index is kept. Throws Error if, in this frame, one of the other points is
+/// not in the same place as the kept point.
 std::vector<Vector3<double>> kept_points(const std::vector<Vector3<double>>& points,
                                          const std::vector<std::size_t>& first, const std::string& where) {
   std::vector<Vector3<double>> kept;

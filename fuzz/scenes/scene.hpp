@@ -29,8 +29,8 @@ Scene with_separation(Scene scene, double separation);
 MovingMesh moving_mesh(const Scene& scene, std::size_t step);
 
 /// Calls visit(step, mesh) for the steps of a scene, in order, until `is_over` returns true. `mesh` is always
-/// the same object, which is moved from step to step. This takes less time than a call of moving_mesh() for
-/// each step.
+/// the same object: for each step, it gets the positions of that step. This takes less time than a call of
+/// moving_mesh() for each step.
 void for_each_step(const Scene& scene, const std::function<bool()>& is_over,
                    const std::function<void(std::size_t step, const MovingMesh& mesh)>& visit);
 
@@ -41,8 +41,8 @@ std::string scene_family(const Scene& scene);
 /// several steps. No family of random queries has such a name.
 std::string step_name(const Scene& scene, std::size_t step);
 
-/// A scene of one step: the same mesh at t = 0 and at t = 1, from two files. Throws Error if read_mesh does,
-/// or if the primitives differ.
+/// A scene of one step. One file has the mesh at t = 0, and the other file has the same mesh at t = 1. Throws
+/// Error if read_mesh does, or if the primitives of the two files differ.
 Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::path& end);
 
 /// A scene whose frames are the mesh files of a folder, in the order of their names. Numbers in names are
@@ -51,10 +51,10 @@ Scene scene_of_files(const std::filesystem::path& start, const std::filesystem::
 /// than two mesh files, or if the files' endings differ, since it is then unclear which files are the frames.
 Scene scene_of_folder(const std::filesystem::path& folder);
 
-/// The scene in which points that coincide at frame 0 (0 and -0 are equal) are merged. Mesh files repeat
-/// points at seams. Without merging, triangles on the two sides of a seam would have no common vertex, and be
-/// tested for collision. After merging, a triangle may have a vertex twice. For a frame in which merged
-/// points are apart, the result's `points` throws Error.
+/// The scene with all points merged that coincide at frame 0; coordinates 0 and -0 are equal. Mesh files
+/// repeat points at seams. Without merging, triangles on the two sides of a seam would have no common vertex,
+/// so they would be tested for collision. After merging, a triangle may have a vertex twice. For a frame in
+/// which merged points are apart, the result's `points` throws Error.
 Scene welded(Scene scene);
 
 }  // namespace nearmiss

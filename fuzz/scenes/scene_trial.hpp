@@ -25,9 +25,10 @@ class SceneTrial {
   /// step; `progress` receives the completed share, from 0 to 1.
   void hold(std::size_t step, const MovingMesh& mesh, const std::function<void(double)>& progress);
 
-  /// Asks a single subject about those pairs whose boxes meet in a step, and for which `is_asked` returns
-  /// true. Counts these pairs in the family of the whole scene (scene_family), and in `counts`. Returns the
-  /// pairs that the subject reports, in the order of the plan. Throws Stopped when the trial's stop is due.
+  /// Asks the subject about the pairs whose boxes meet in a step and for which `is_asked` returns true. The
+  /// trial must have a single subject. Counts these pairs in the family of the whole scene (scene_family),
+  /// and in `counts`. Returns the pairs that the subject reports, in the order of the plan. Throws Stopped
+  /// when the trial's stop is due.
   std::vector<ReportedPair> ask(std::size_t step, const MovingMesh& mesh,
                                 const std::function<bool(const Candidate&)>& is_asked, SimulatedStep& counts);
 
@@ -39,8 +40,8 @@ class SceneTrial {
  private:
   using IsAsked = std::function<bool(const Candidate&)>;
 
-  /// The results of some parts of a step, without the statistics of the subjects' answers, which are added to
-  /// `trials_`.
+  /// The results of some parts of a step. The statistics of the subjects' answers are not among these
+  /// results: they are added to `trials_`.
   struct PartResult {
     Funnels funnels = {};
     Marks marks = {};

@@ -18,7 +18,8 @@ struct Verification {
       0;  ///< steps in which the pairs that the tree finds are not exactly those whose boxes meet
   /// The number of each subject's false positives among the pairs that the plan leaves out.
   std::map<std::string, std::uint64_t> spared;
-  /// The time that the oracle and the subjects took for all pairs that the plan leaves out.
+  /// The time that it took to go through all pairs, and to ask the oracle and the subjects about those pairs
+  /// that the plan leaves out.
   double seconds = 0;
 
   [[nodiscard]] bool fine() const { return wrong == 0 && wrong_searches == 0; }
@@ -27,7 +28,7 @@ struct Verification {
 
 /// Asks the subjects and the oracle about every pair that the plan of a step leaves out. If the boxes of a
 /// pair do not meet, the oracle must find no collision; if the pair is at relative rest or in relative
-/// translation, the oracle must agree with the plan. The plan must find exactly the pairs whose boxes meet.
+/// translation, the oracle must agree with the plan. The tree must find exactly the pairs whose boxes meet.
 /// `progress` receives the completed share, and returns whether to continue.
 Verification verify_plan(const MovingMesh& mesh, const Subjects& subjects, int jobs,
                          const std::function<bool(double)>& progress);

@@ -13,7 +13,7 @@ namespace {
 using Points = std::array<Vector3<double>, 4>;
 using Weights = std::array<double, 4>;
 
-/// Receives pairs of points (offers), and keeps the pair whose points are nearest to each other.
+/// Receives offers, each of which is a pair of points. Keeps the pair whose points are nearest to each other.
 class Nearest {
  public:
   explicit Nearest(const Points& x) : x_(x) {}
@@ -27,7 +27,8 @@ class Nearest {
     weights_ = weights;
   }
 
-  /// Offers a vertex and the nearest point of an edge. The vertex gets the weight `side` (1 or -1).
+  /// Offers a vertex and the point of an edge that is nearest to the vertex. The vertex gets the weight
+  /// `side` (1 or -1).
   void offer_vertex_edge(std::size_t vertex, std::size_t from, std::size_t to, double side) {
     const Vector3<double> edge = x_[to] - x_[from];
     const double squared = dot(edge, edge);

@@ -11,9 +11,9 @@
 
 namespace nearmiss {
 
-/// Points and springs. Each edge of a mesh is a spring. Weaker springs, which resist bending, join the two
-/// vertices opposite an edge, and the two neighbours of a point of a hair. All springs are at rest in the
-/// given mesh.
+/// Points and springs. Each edge of a mesh is a spring. Weaker springs resist bending: they join the two
+/// vertices that are opposite an edge in its two triangles, and the two neighbours of a point of a hair. All
+/// springs are at rest in the given mesh.
 ///
 /// A step uses the backward Euler method. Its equations are solved alternately for the directions of all
 /// springs and for the positions of all points (Liu, Bargteil, O'Brien, Kavan 2013, "Fast simulation of
@@ -22,12 +22,13 @@ namespace nearmiss {
 class Cloth {
  public:
   /// `held` says for each point whether the caller moves it. `step` is in seconds. Throws Error if the
-  /// stiffness times the square of the step is more than 10^10 times the mass of a point: double is too
-  /// coarse for such springs.
+  /// stiffness times the square of the step is more than 10^10 times the mass of a point, because double is
+  /// too coarse for such springs.
   Cloth(const Mesh& mesh, std::vector<bool> held, const Material& material, double step);
 
-  /// The positions after a step from `start` (positions and velocities in m and m/s). Held points move to
-  /// their positions in `held_at`. Calls `check` now and then; an exception from `check` ends the work.
+  /// The positions after a step that begins at the positions `start` (in m) with `velocities` (in m/s). Held
+  /// points move to their positions in `held_at`. Calls `check` now and then; an exception from `check` ends
+  /// the work.
   [[nodiscard]] PointVectors advance(
       const PointVectors& start, const PointVectors& velocities, const PointVectors& held_at,
       const std::function<void()>& check = [] {}) const;

@@ -16,7 +16,8 @@ std::size_t index(int point) { return static_cast<std::size_t>(point); }
 
 }  // namespace
 
-/// The contact of a pair: its place, its normal, and the relative motion there.
+/// The contact of a pair: the place of the contact, its normal, and the relative motion of the primitives
+/// there.
 struct Response::Touch {
   std::array<double, 4> weights{};  ///< as in closest_weights
   /// A vector of length 1 from the second primitive to the first; 0 if unknown.
@@ -59,8 +60,8 @@ Response::Touch Response::touch(const Candidate& pair, double time, const PointV
   return touch;
 }
 
-/// Applies an impulse after which the primitives move apart along the normal by at least
-/// `least_normal_motion` in the step, and the friction that the impulse causes.
+/// Applies an impulse, and the friction that the impulse causes. After the impulse, the primitives move apart
+/// along the normal by at least `least_normal_motion` in the step.
 void Response::apply(const Candidate& pair, const Touch& touch, double least_normal_motion,
                      PointVectors& end) const {
   const double along = dot(touch.motion, touch.normal);
@@ -115,8 +116,8 @@ void Response::move_rigidly(const std::vector<int>& zone, const PointVectors& st
       momentum += r.cross(end[index(point)] - start[index(point)] - motion);
       inertia += dot(r, r) * Eigen::Matrix3d::Identity() - r * r.transpose();
     }
-    // Points on a line have no inertia about it. A small multiple of the identity makes the matrix
-    // invertible.
+    // If all points are on a line, they have no inertia about this line, and the matrix is singular. Adding a
+    // small multiple of the identity makes the matrix invertible.
     constexpr double relative = 1e-9;
     inertia += relative * inertia.trace() * Eigen::Matrix3d::Identity();
     const Vector3<double> turn =

@@ -18,16 +18,16 @@ class Response {
 
   /// Repels a pair that is nearer than the thickness at the start of the step (§7.2 of the paper). Stops the
   /// approach of the pair by an inelastic impulse, and moves the primitives apart by a tenth of (thickness -
-  /// distance). Does not change primitives that touch, since no direction separates them.
+  /// distance). Does not move primitives that touch, since there is no direction in which to move them apart.
   void repel(const Candidate& pair, const PointVectors& start, PointVectors& end) const;
 
-  /// Ends the approach of a pair that collides at a time in [0, 1], by friction and an inelastic impulse
-  /// along the normal (§7.4 of the paper). If the time is NaN, uses the end of the step.
+  /// Stops the approach of a pair that collides at a time in [0, 1]. To do so, applies an inelastic impulse
+  /// along the normal, and friction (§7.4 of the paper). If the time is NaN, uses the end of the step.
   void stop_approach(const Candidate& pair, double time, const PointVectors& start, PointVectors& end) const;
 
   /// Moves the points of a zone (connected pairs that still collide) rigidly, with their common linear and
-  /// angular momentum (§7.5 of the paper). If some of the points are held, the zone moves by their mean
-  /// motion.
+  /// angular momentum (§7.5 of the paper). If some of the points are held, all other points move by the mean
+  /// motion of the held points.
   void move_rigidly(const std::vector<int>& zone, const PointVectors& start, PointVectors& end) const;
 
  private:

@@ -42,7 +42,7 @@ Held ends_of_lines(const Mesh& mesh) {
   return held;
 }
 
-/// Two equal sheets, vertex above vertex.
+/// Two equal sheets. Each vertex of the second sheet is exactly above a vertex of the first sheet.
 Scene two_sheets(int size) {
   const int squares = std::max(2, nearest(std::sqrt(size / 4.0)));
   const int in_sheet = (squares + 1) * (squares + 1);

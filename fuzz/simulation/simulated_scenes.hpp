@@ -8,8 +8,8 @@
 
 namespace nearmiss {
 
-/// A scene in which some points follow the frames, and physics moves all other points. Edges are about 1 long
-/// in the scene's unit of length.
+/// A scene in which some points follow the frames, and the simulation moves all other points. Edges are about
+/// 1 long in the scene's unit of length.
 struct SimulatedScene {
   Scene scene;
   std::vector<bool> held;  ///< for each point, whether it follows the frames

@@ -12,12 +12,12 @@ namespace {
 /// Even if a simulation explodes, its results report at most this energy, 100 kJ.
 constexpr double most_picojoules = 1e17;
 
-/// The number of rounds of impulses, which come before the rounds of impact zones.
+/// The number of rounds that apply impulses. These rounds come before the rounds that move impact zones.
 constexpr int impulse_rounds = 10;
-/// The number of rounds of impact zones; after them, one more round only asks the CCD.
+/// The number of rounds that move impact zones. After these rounds, one more round only asks the CCD.
 constexpr int zone_rounds = 20;
 
-/// The groups of points that the lines of a mesh join.
+/// The groups of points that the lines of a mesh join. Points on no line are left out.
 std::vector<std::vector<int>> groups(const Mesh& joined) {
   const Bodies found = bodies(joined);
   std::vector<std::vector<int>> all(static_cast<std::size_t>(found.count));

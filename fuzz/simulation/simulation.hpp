@@ -16,14 +16,15 @@
 
 namespace nearmiss {
 
-/// Asks a CCD about those pairs of primitives whose boxes meet in a motion, and for which `asked` returns
-/// true. Returns the pairs that the CCD reports, in an order that is always the same.
+/// Asks a CCD about the pairs of primitives whose boxes meet in a motion and for which `asked` returns true.
+/// Returns the pairs that the CCD reports, in an order that is always the same.
 using AskCcd = std::function<std::vector<ReportedPair>(const MovingMesh& motion,
                                                        const std::function<bool(const Candidate&)>& asked)>;
 
-/// Moves a scene step by step. A step integrates implicitly, and makes near primitives repel each other. Then
-/// it repeatedly asks a CCD and stops the reported pairs, first by impulses, later by rigid impact zones. The
-/// result depends only on the arguments and the CCD's answers.
+/// Moves a scene step by step. Each step first moves the points by implicit integration, and makes primitives
+/// that are near each other repel each other. Then the step repeatedly asks a CCD, and stops the pairs that
+/// the CCD reports, first by impulses, later by rigid impact zones. The result depends only on the arguments
+/// and the CCD's answers.
 class Simulation {
  public:
   /// From one frame of the scene to the next, the simulation does `steps_per_frame` steps of `step` seconds.
@@ -32,8 +33,8 @@ class Simulation {
   /// The number of steps until the last frame of the scene.
   [[nodiscard]] std::size_t steps() const;
 
-  /// Does the next step. The result lacks the counts of answers, which the caller adds. Throws Stopped when
-  /// `stop` is due.
+  /// Does the next step. The result does not have the counts of the CCD's answers; the caller adds these
+  /// counts. Throws Stopped when `stop` is due.
   SimulatedStep advance(const AskCcd& ask, const Stop& stop = Stop::never());
 
   /// The motion of the last step.
@@ -51,7 +52,7 @@ class Simulation {
   Material material_;
   double step_;
   int steps_per_frame_;
-  /// The copies of a Simulation share one Cloth, because factorising the matrix of a Cloth takes long.
+  /// All copies of a Simulation share one Cloth, because it takes long to factorise the matrix of a Cloth.
   std::shared_ptr<const Cloth> cloth_;
   Response response_;
   MovingMesh motion_;  ///< in metres

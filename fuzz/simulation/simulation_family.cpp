@@ -93,7 +93,7 @@ PairSample simulate(Simulation simulation, const Stop& stop) {
   return sample;
 }
 
-/// The family of the simulation `name`, which must not end with a separation.
+/// The family of the simulation `name`. The name must not end with a separation.
 Family simulation_family(std::string_view name, const Stop& stop) {
   const auto pairs =
       std::make_shared<QueriesByKind>(simulate(parse_simulation_name(name).simulation(), stop).pairs());

@@ -25,13 +25,14 @@ struct SimulationOptions {
   [[nodiscard]] Simulation simulation() const;
 };
 
-/// The options for which name() returns this text. Throws Error if no options have this name.
+/// The options for which name() returns `name`. Throws Error if there are no such options.
 SimulationOptions parse_simulation_name(std::string_view name);
 
-/// Finds a family by its name, as find_family does. If the name is that of a simulation
-/// (SimulationOptions::name), with or without ~SEPARATION at the end, makes the family. To make it, simulates
-/// the scene with the oracle as the CCD, and keeps a sample of the pairs about which the CCD is asked. Throws
-/// Error for an unknown name or an invalid option, and Stopped if the stop is due before the simulation ends.
+/// Finds a family by its name, as find_family does. But if the name is the name of a simulation
+/// (SimulationOptions::name), with or without ~SEPARATION at the end, this function makes the family: it
+/// simulates the scene with the oracle as the CCD, and keeps a sample of the pairs about which the CCD is
+/// asked. Throws Error for an unknown name or an invalid option, and Stopped if the stop is due before the
+/// simulation ends.
 Family find_any_family(std::string_view name, const Stop& stop = Stop::never(),
                        std::span<const Family> known = all_families());
 

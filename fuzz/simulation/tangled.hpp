@@ -17,9 +17,9 @@ struct Piercing {
   auto operator<=>(const Piercing&) const = default;
 };
 
-/// Returns, in ascending order, the pairs of an edge and a triangle for which the edge passes through the
-/// inside of the triangle at the end of the motion. Touching does not count. Exact signs of determinants
-/// decide whether an edge passes through.
+/// Finds the pairs of an edge and a triangle in which the edge passes through the inside of the triangle at
+/// the end of the motion. Returns the pairs in ascending order. An edge that only touches the triangle does
+/// not count. Exact signs of determinants decide whether an edge passes through a triangle.
 std::vector<Piercing> find_tangled(const MovingMesh& mesh);
 
 }  // namespace nearmiss

@@ -41,7 +41,8 @@ constexpr double inside_ee_far = 540;  // if components of p, the relative posit
 
 std::string_view first_broken(const Tolerances<double>& tol, double eps,
                               const RoundingErrors<double>& errors) {
-  // The error E in (3) of the paper; the error E in (2) of the paper is 21/16 of this value.
+  // The edge length E in constraint (3) of the paper. The edge length E in constraint (2) is 21/16 of this
+  // length.
   const double E = 4 * std::sqrt(eps);
   for (const auto& each : constraints(tol, 21 * E / 16, E, errors))
     if (!(each.more >= each.less)) return each.about;

@@ -29,7 +29,7 @@ struct RoundingConstant {
   double proven = none;
   std::string_view note{};
 
-  /// Returns true if neither the theorem nor a proof shows that the constant is large enough.
+  /// Whether neither the theorem nor a proof shows that the constant is large enough.
   [[nodiscard]] bool is_too_small() const {
     return quoted > 0 && !(derived <= quoted) && !(proven <= quoted);
   }

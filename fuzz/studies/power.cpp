@@ -10,7 +10,7 @@ namespace nearmiss {
 
 namespace {
 
-/// The index of the finding's query, from its provenance "family:seed:index".
+/// The index of the finding's query, read from the finding's provenance "family:seed:index".
 std::uint64_t index_of(const Finding& finding) {
   const std::string& text = finding.provenance;
   std::uint64_t index = 0;

@@ -12,19 +12,19 @@
 
 namespace nearmiss {
 
-/// The first failure that a campaign found. Failures are ordered as the cases of the campaign are.
+/// The first failure that a campaign found, in the order of the campaign's cases.
 struct FirstFailure {
   Finding finding;
-  /// The time until the failure. It is interpolated between two results of the campaign, by the numbers of
-  /// cases that these results have.
+  /// The time until the failure. A campaign gives the time only after each batch of cases, so this time is
+  /// interpolated between two batches, in proportion to the number of cases.
   double seconds = 0;
   std::uint64_t cases = 0;  ///< number of cases up to and including the case that failed
 };
 
-/// Returns the families in which to look for a subject's defects: `of_contact` and, if the subject takes
-/// separations for vertex-triangle queries, also the same families with a random separation in each query. If
-/// the subject takes separations for vertex-vertex or vertex-edge queries, also returns the families
-/// `of_vertices`, changed by as_asked().
+/// Returns the families in which to look for a subject's defects. These are the families `of_contact`. If the
+/// subject takes separations for vertex-triangle queries, the families `of_contact` are returned a second
+/// time, with a random separation in each query. If the subject takes separations for vertex-vertex or
+/// vertex-edge queries, the result also has the families `of_vertices`, changed by as_asked().
 std::vector<Family> families_for(const Subject& subject, std::span<const Family> of_contact,
                                  std::span<const Family> of_vertices);
 

@@ -11,8 +11,8 @@ namespace nearmiss {
 
 namespace {
 
-/// Counts the times in [0, 1] at which Algorithm 2 of the paper tests a vertex and an edge; a time that
-/// occurs twice may count twice.
+/// Counts the times in [0, 1] at which Algorithm 2 of the paper tests a vertex and an edge. If a time occurs
+/// twice, it may count twice.
 std::uint64_t valid_candidates(const VertexEdge<double>& ve, const Tolerances<double>& tol) {
   const detail::CrossProduct<double> g(ve.x0i, ve.xji, tol.rho);
   const int inside = detail::equal_components(ve.xji).count + detail::zero_components(g).count +

@@ -24,7 +24,7 @@ struct RandomPairs {
 
 /// Counts how many of the first `queries` queries of this kind in the family `uniform` reach each stage of
 /// the algorithms. All velocities of the queries are multiplied by `speed`. Vertices start in a unit cube,
-/// and have velocities in ±speed along each axis. Throws Stopped when `stop` is due.
+/// and their velocity along each axis is from -speed to speed. Throws Stopped when `stop` is due.
 RandomPairs count_random_pairs(Kind kind, double speed, std::uint64_t queries, std::uint64_t seed,
                                const Stop& stop);
 

@@ -23,8 +23,8 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// A group of tests with which wang accepts queries. `subject` names the CCD that measures the group: wang
-/// without the groups of tests that accept pairs at larger distances.
+/// A group of tests with which wang accepts queries. `subject` names the CCD on which the group is measured.
+/// This CCD is wang without the other groups of tests that accept pairs at larger distances.
 struct Tests {
   std::string_view name, subject;
 };
@@ -44,7 +44,7 @@ struct Gauge {
   std::function<std::optional<double>(const Query&)> read;
 };
 
-/// The family of a directed search; if `among` is set, its queries are vv and ve.
+/// The family of a directed search. If `among` is set, the family has vv and ve queries.
 Family search_by(SearchFor what, const Subject& subject, bool among, const Stop& stop) {
   return among ? among_vertices(search_for(what, subject, stop, drawn_separation))
                : search_for(what, subject, stop);
@@ -58,8 +58,8 @@ Gauge tolerance_gauge(const NamedTolerance& tolerance, bool among, const Stop& s
   const auto read = [&tolerance, &subject = *subject,
                      none = nothing.value](const Query& query) -> std::optional<double> {
     if (!collides(query)) return std::nullopt;
-    // needed_tolerance() overestimates slightly. The query counts only if the subject indeed misses it with a
-    // slightly smaller factor.
+    // needed_tolerance() overestimates slightly. The query counts only if the subject indeed misses the
+    // collision with a slightly smaller factor.
     constexpr double less = 0.98;
     const double needed = subject.needed_tolerance(query) * less;
     const double factor = tolerance.accepts ? needed : 1 / needed;
@@ -139,7 +139,7 @@ void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, con
       std::vector<Extreme> parts(wave, gauge.nothing);
       try {
         in_parallel(plan.jobs, wave, [&](std::size_t i) {
-          const std::uint64_t number = round * (wave / 2) + i / 2;  // counts the blocks of either source
+          const std::uint64_t number = round * (wave / 2) + i / 2;  // counts the blocks of each source
           const std::uint64_t families = plan.families.size();
           parts[i] = i % 2 == 0 ? read_block(gauge, gauge.search, plan.seed, 4 * number, 4, ending)
                                 : read_block(gauge, plan.families[number % families], plan.seed,

@@ -28,16 +28,18 @@ struct TightnessPlan {
 /// 1 and 2 use.
 std::vector<std::string> tightness_names(bool among_vertices = false);
 
-/// Receives the result for a name as far as it is known. `done` is set when the time for measuring this name
+/// Receives the result for a name, as far as the result is known. `done` is true when the time for this name
 /// is over.
 using TightnessSink = std::function<void(const Extreme&, bool done)>;
 
-/// Measures each tolerance and group of tests. For a tolerance, half of the queries come from the plan's
-/// families. Directed search gives the other half: it looks for collisions that the subject would miss if the
-/// tolerance were slightly tighter. Each collision gives a factor: if the tolerance is multiplied by less
-/// than this factor (by more, if the tolerance excludes degenerate primitives), the subject misses the
-/// collision. For a group of tests, the function runs wang without the groups that accept pairs at larger
-/// distances, and measures the distances of wang's false positives. Throws Error for an unknown name.
+/// Measures each tolerance and each group of tests. Half of the queries come from the plan's families, and
+/// directed search gives the other half. For a tolerance, the search looks for collisions that the subject
+/// would miss if the tolerance were slightly tighter. Each collision gives a factor: the subject misses the
+/// collision if the tolerance is multiplied by less than this factor. (If the tolerance excludes degenerate
+/// primitives, the subject misses the collision if the tolerance is multiplied by more than this factor.) For
+/// a group of tests, the search looks for false positives at large distances. The function runs wang without
+/// the groups that accept pairs at larger distances than this group, and measures the distances of the false
+/// positives. Throws Error for an unknown name.
 void measure_tightness(const TightnessPlan& plan, const TightnessSink& sink, const std::atomic<bool>& stop);
 
 }  // namespace nearmiss

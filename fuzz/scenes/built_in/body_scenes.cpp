@@ -57,7 +57,7 @@ struct Pieces {
     count = nearest(size / (triangles / static_cast<double>(shapes.size())));
     while (row * row * row < count) ++row;
   }
-  /// The cell of a body in a cube of cells, which bodies fill layer by layer.
+  /// The cell of a body. The cells form a cube, which the bodies fill layer by layer.
   [[nodiscard]] std::array<int, 3> cell(int body) const {
     return {body % row, body / row % row, body / row / row};
   }
@@ -94,7 +94,7 @@ Vector3<double> on_grid(const Vector3<double>& p) {
 
 /// Layers of bodies pass each other. Each layer moves in its own direction, without rotation. All coordinates
 /// are multiples of 2^-20, so in a step all points of a layer move by exactly the same vector, and every pair
-/// is in relative rest or translation.
+/// is at relative rest or in relative translation.
 Scene flying(int size) {
   const Pieces pieces(size, 1);
   std::vector<Mesh> shapes;

@@ -21,7 +21,7 @@ struct BuiltInScene {
   int default_size = 0;
   int smallest = 0, largest = 0;
   /// Makes the scene, without a name, in a size from `smallest` to `largest`. The size is the approximate
-  /// number of triangles, or of lines or points if the scene consists of these.
+  /// number of triangles; for a scene of lines or points, it is the approximate number of lines or points.
   std::function<Scene(int size)> make;
   /// Says which points follow the frames in a simulation; physics moves all other points. Null if the scene
   /// cannot be simulated.
@@ -35,8 +35,8 @@ const std::vector<BuiltInScene>& built_in_scenes();
 /// name. The size is not checked.
 const BuiltInScene* find_scene(std::string_view text, std::span<const BuiltInScene> among);
 
-/// Makes a scene in its default size (NAME) or another size (NAME@SIZE). The text becomes its name. Throws
-/// Error if the size is not an integer or is out of range.
+/// Makes a scene in its default size (NAME) or another size (NAME@SIZE). The text becomes the scene's name.
+/// Throws Error if the size is not an integer or is out of range.
 Scene make_scene(const std::string& text, const BuiltInScene& scene);
 
 /// Whether a text names a built-in scene, as NAME or NAME@SIZE; the size is not checked.

@@ -18,7 +18,7 @@ enum : std::uint64_t { spikes_gaps = 101, spikes_waves, sheets_waves, points_pla
 
 constexpr int spike_sides = 12, spike_rings = 4;
 constexpr int spike_triangles = spike_sides * (2 * spike_rings - 1);
-// The distance between neighbouring spikes; with it, each spike has 200 triangles of cloth.
+// The distance between neighbouring spikes. At this distance, the cloth has 200 triangles for each spike.
 constexpr double pitch = 10;
 constexpr double tip = 5;  // the height of a spike
 
@@ -49,10 +49,10 @@ class SpikeField {
       gaps_.push_back(Random(0, spikes_gaps, static_cast<std::uint64_t>(i)).uniform(0.02, 0.35));
   }
 
-  /// The x coordinate of column i of the spikes, and the y coordinate of row i.
+  /// The x coordinate of the spikes in column i, which is also the y coordinate of the spikes in row i.
   [[nodiscard]] double place(int i) const { return (i - middle_) * pitch; }
 
-  /// The height at which the nearest spike holds up the cloth.
+  /// The height at which the spike nearest to (x, y) holds up the cloth.
   [[nodiscard]] double held_height(double x, double y) const {
     const int i = nearest_spike(x);
     const int j = nearest_spike(y);
@@ -71,9 +71,9 @@ class SpikeField {
   std::vector<double> gaps_;
 };
 
-/// A cloth falls on a square of spikes, by 0.2 in each step, from above the tips to half the height of the
-/// spikes. Each spike holds up the cloth with a random gap; some gaps are too small, so collisions occur. A
-/// larger scene has more spikes of the same size and spacing.
+/// A cloth falls on a square of spikes, by 0.2 in each step, from a height of 5.6 to a height of 1.6. The
+/// tips of the spikes are at a height of 5. Each spike holds up the cloth with a random gap; some gaps are
+/// too small, so collisions occur. A larger scene has more spikes of the same size and spacing.
 Scene spikes(int size) {
   const double triangles_of_one = 2 * pitch * pitch + spike_triangles;
   const int row = std::max(1, nearest(std::sqrt(size / triangles_of_one)));

@@ -1,6 +1,7 @@
 // The functions that compute built-in scenes. Every machine and compiler must give the same bits. So these
-// functions use only operations whose rounding IEEE 754 prescribes, in a fixed order. A library's sine may be
-// rounded in another way, and Eigen's dot product may use another order.
+// functions use only operations whose rounding IEEE 754 prescribes, in a fixed order. The sine of a C library
+// may be rounded in another way on another machine, and Eigen's dot product may add its terms in another
+// order.
 #pragma once
 
 #include <array>
@@ -30,9 +31,9 @@ double dot(const Vector3<double>& a, const Vector3<double>& b);
 double length(const Vector3<double>& a);
 
 /// A rotation about an axis through the origin. A rotation by 0 turns changes no bit. The image of a point is
-/// computed as a sum of columns of the rotation matrix. It is not computed row by row, as x cos - y sin and x
-/// sin + y cos, because g++ 12 would use fused operations for these rows if the processor has them, even with
-/// -ffp-contract=off.
+/// computed as a sum of columns of the rotation matrix. The rows, such as x cos - y sin and x sin + y cos,
+/// are not computed one by one: g++ 12 would use fused operations for them if the processor has such
+/// operations, even with -ffp-contract=off.
 class Rotation {
  public:
   Rotation() = default;

@@ -49,7 +49,7 @@ Mesh box(const std::array<int, 3>& edges) {
   const auto in_row = static_cast<std::size_t>(edges[0] + 1);
   const auto in_layer = in_row * static_cast<std::size_t>(edges[1] + 1);
   std::vector<int> number(in_layer * static_cast<std::size_t>(edges[2] + 1), -1);
-  // Returns the number of the point at a place of the surface. Adds the point if it does not exist yet.
+  // Returns the number of the point at a place on the surface. Adds the point if it does not exist yet.
   const auto point = [&](const std::array<int, 3>& at) {
     int& found = number[static_cast<std::size_t>(at[2]) * in_layer +
                         static_cast<std::size_t>(at[1]) * in_row + static_cast<std::size_t>(at[0])];

@@ -40,8 +40,8 @@ class KnotLine {
     const double along = from_middle + knotted() / 2;
     const auto behind = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, along);
     const auto i = static_cast<std::size_t>(behind - lengths_.begin());
-    // The place of the point on the segment from points_[i - 1] to points_[i]. On the straight ends of the
-    // knot, this number is outside [0, 1].
+    // The place of the result on the segment from points_[i - 1] to points_[i]. On the straight ends of the
+    // knot, `part` is outside [0, 1].
     const double part = (along - lengths_[i - 1]) / (lengths_[i] - lengths_[i - 1]);
     return points_[i - 1] + part * (points_[i] - points_[i - 1]);
   }
@@ -67,9 +67,9 @@ PointList tube(const PointList& line, double radius, int sides) {
   return points;
 }
 
-/// The ends of a knotted tube are pulled. The knot shrinks as the tube slides through it; the tube keeps its
-/// length and radius. In the last frame, the tube's strands overlap by 0.3. A step moves the ends by about
-/// half an edge.
+/// The ends of a knotted tube are pulled. The knot shrinks as the tube slides through the knot; the tube
+/// keeps its length and radius. In the last frame, the tube's strands overlap by 0.3. A step moves the ends
+/// by about half an edge.
 Scene knot(int size) {
   constexpr int steps = 25;
   constexpr double radii_long = 52;  // length / radius of the tube
@@ -129,8 +129,9 @@ Scene hair(int size) {
 // --- mat --------------------------------------------------------------------------------------------------
 
 /// A cross-section of the rolled mat, with a point for each column. It consists of two spirals from the
-/// middle, whose arms are pi / (2 tightness) apart. Rolling moves a point whose distance from the axis is s
-/// to the distance s / sqrt(1 + tightness s). The total length of the spirals is the width of the mat.
+/// middle, whose arms are pi / (2 tightness) apart. A point whose distance from the axis of the flat mat is s
+/// has the distance s / sqrt(1 + tightness s) from the axis in the rolled mat. The total length of the
+/// spirals is the width of the mat.
 PointList rolled(int squares, double tightness) {
   constexpr int substeps = 16;
   constexpr double turns_of_a_radian = 0.15915494309189535;

@@ -1,5 +1,5 @@
-// The oracle as the CCD `exact`. The oracle decides each query with its batch filter first, as it does in a
-// campaign.
+// The oracle as the CCD `exact`. As in a campaign, the oracle first tries to decide each query with its batch
+// filter.
 #include <span>
 
 #include "fuzz/studies/environments/on_trial.hpp"

@@ -1,4 +1,4 @@
-// The functions of a CCD that the plug-ins in this folder call.
+// The functions that each CCD in this folder defines, and that its plug-ins call.
 #pragma once
 
 #include "ccd/query/query.hpp"

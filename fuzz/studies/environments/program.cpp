@@ -1,5 +1,5 @@
 // Turns a plug-in for another processor into a program (fuzz/subjects/PROGRAMS.md), so that an emulator can
-// run it.
+// run the plug-in.
 #include <array>
 #include <cstddef>
 #include <cstdio>
