@@ -35,7 +35,8 @@ double middle_of(double lo, double hi) {
   return high - low > 1 ? std::ldexp(1.0, std::midpoint(low, high)) : std::midpoint(lo, hi);
 }
 
-/// Narrows an enclosure of the smallest distance by exact comparisons. This distance must be above `base`.
+/// Narrows an enclosure of the smallest distance by exact comparisons. The smallest distance must be above
+/// `base`.
 class Narrowing {
  public:
   Narrowing(exact::SmallestDistance& smallest, double base, const Enclosure& distance)
@@ -43,9 +44,10 @@ class Narrowing {
 
   [[nodiscard]] const Enclosure& distance() const { return distance_; }
 
-  /// Compares the smallest distance with one more number, and narrows the enclosure; returns false if no
-  /// double is left between the ends of the enclosure. Most distances are just below the upper end, so the
-  /// first numbers are chosen near this end. A later number is base + middle_of(lo - base, hi - base).
+  /// Compares the smallest distance with one more number, and narrows the enclosure accordingly. Returns
+  /// false if no double is left between the ends of the enclosure. Most distances are just below the upper
+  /// end, so the first numbers are chosen near this end. A later number is base + middle_of(lo - base, hi -
+  /// base).
   bool compare() {
     const double least = above(distance_.lo);
     const double most = below(distance_.hi);
@@ -68,8 +70,8 @@ class Narrowing {
   std::uint64_t step_ = 64;  ///< the next number to compare is this many doubles below the upper end
 };
 
-/// Does the same as distance_in_units(). But if the smallest distance is at most `base`, [0, base] suffices
-/// as the enclosure of this distance.
+/// Encloses the smallest distance as distance_in_units() does. But if this distance is at most `base`, [0,
+/// base] suffices as its enclosure.
 Enclosure distance_above(double base, const Query& query, double unit, const NeededDistance& needed_of) {
   // If needed_of(hi) is infinite, the largest double suffices as the lower end.
   const auto needed = [&](double hi) { return std::min(needed_of(hi), std::numeric_limits<double>::max()); };

@@ -25,17 +25,18 @@ Enclosure distance_beyond_separation(const Query& query, double unit, const Need
 /// 1e-3.
 double closest_ratio(const Query& query, double unit);
 
-/// A time in [0, 1] at which the distance of the primitives is close to its minimum, for pictures.
+/// A time in [0, 1] at which the distance of the primitives is close to its minimum. Pictures show this time.
 double closest_time(const Query& query);
 
 /// Whether the smallest distance over [0, 1] is above `bound` >= 0. The answer is always exact.
 bool distance_exceeds(const Query& query, double bound);
 
-/// Whether the smallest distance is above h + bound. For h > 0, the sum is rounded up.
+/// Whether the smallest distance is above h + bound, where h is the query's separation. For h > 0, the sum
+/// h + bound is rounded up.
 bool distance_exceeds_separation_by(const Query& query, double bound);
 
 /// The number with which distance_exceeds_separation_by() compares the smallest distance: `bound` if h = 0,
-/// else a number just above h + bound.
+/// else a double just above h + bound.
 double separation_and_bound(const Query& query, double bound);
 
 }  // namespace nearmiss

@@ -30,15 +30,16 @@ double rounded_down(const Number& x) {
   return d;
 }
 
-/// Two doubles that enclose a time in [0, 1], at most `width` apart or as near as doubles allow. For width =
-/// 0, both are the time itself if the time is a double.
+/// Two doubles that enclose a time in [0, 1]. They are at most `width` apart, or as near to each other as
+/// doubles allow. If `width` is 0 and the time is a double, both are the time itself.
 Enclosure enclose(Root t, double width) {
   for (;; t.refine()) {
     const double lo = rounded_down(t.lo());
     const double last = rounded_down(t.hi());
     const double hi = Number(last) < t.hi() ? std::nextafter(last, 2.0) : last;
     const double next = std::nextafter(lo, 2.0);
-    // Refines the root further while more than one double lies between lo and hi.
+    // The root is refined further if more than one double lies between lo and hi, and lo and hi are more than
+    // `width` apart.
     if (std::nextafter(next, 2.0) < hi && hi - lo > width) continue;
     for (const double each : {lo, next, hi})
       if (t.is(Number(each))) return {each, each};
@@ -47,7 +48,7 @@ Enclosure enclose(Root t, double width) {
 }
 
 // Comparing a root with a number may refine the interval of the root. The functions below compare copies of
-// roots, so that the answers to later questions do not depend on earlier ones.
+// roots, so that an answer does not depend on earlier questions.
 bool is_below(Root t, double time) {
   Root at{Number(time)};
   return t.is_below(at);
@@ -80,8 +81,9 @@ Root first_root(const Query& query, const KnownTime& known) {
   return contact->time;
 }
 
-/// If `is_certified` and the enclosure does not begin at 0, certified bounds show that the distance is above
-/// h at its beginning, and below h at its end. Then t* is neither end.
+/// An enclosure of t*. If `is_certified` is true and the enclosure does not begin at 0, certified bounds show
+/// that the distance is above h at the beginning of the enclosure, and below h at the end. So t* is neither
+/// of these two times.
 KnownTime between(const Enclosure& time, bool is_certified) { return {time, is_certified && time.lo > 0}; }
 
 /// 1 if all numbers in the enclosure `known` of t* are below `time`, 0 if none is, -1 if only some are.

@@ -1,4 +1,4 @@
-// When two primitives first share a point, or first come within the separation.
+// The time at which two primitives first share a point, or first come within the separation of each other.
 #pragma once
 
 #include <memory>
@@ -15,9 +15,9 @@ namespace exact {
 struct FirstApproach;
 }
 
-/// Results of a decision from which the search for the earliest time can start.
+/// Results of a decision, with which the search for the earliest time can start.
 struct KnownTimes {
-  std::optional<KnownApproach> approach;  ///< for h > 0: what certified bounds show about t*
+  std::optional<KnownApproach> approach;  ///< for h > 0: the facts that certified bounds prove
   std::shared_ptr<const exact::FirstApproach>
       exactly;  ///< the first approach, if exact arithmetic found it; for h = 0, the first contact
 };
@@ -41,7 +41,7 @@ class EarliestTime {
 
   /// Whether a subject that reports `time` is late. For h = 0, this means that t* < time. For h > 0, it means
   /// that the distance is below h at some time before `time`. A distance of exactly h does not count, because
-  /// a subject may report it or not. The answer is exact.
+  /// a subject is free to report it or not. The answer is exact.
   [[nodiscard]] bool makes_late(double time);
 
   /// An enclosure of t* that is at most `width` wide, or as narrow as doubles allow. Both ends are t* if t*

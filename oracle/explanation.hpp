@@ -1,4 +1,5 @@
-// Facts that may explain a failure: when the vertices of a query are coplanar, and when its first contact is.
+// Facts that may explain a failure: when the vertices of a query are coplanar, and when its primitives first
+// touch.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace nearmiss {
 
-/// Facts about a query on which CCDs often depend, determined by exact arithmetic.
+/// Facts about a query that often make the difference for a CCD. Exact arithmetic determines them.
 struct Explanation {
   enum class Contact : std::uint8_t {
     none,    ///< the primitives do not touch, or do not come within the separation
@@ -19,13 +20,13 @@ struct Explanation {
     end,     ///< at t = 1
   };
 
-  /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if they always are,
-  /// and nothing for kinds with fewer than four vertices.
+  /// The number of different times in [0, 1] at which the four vertices are coplanar; -1 if the vertices are
+  /// always coplanar, and nothing for kinds with fewer than four vertices.
   std::optional<int> roots;
   /// Whether and when the primitives first touch or, for h > 0, first come within the separation.
   Contact contact{};
   bool is_approach = false;  ///< whether the query has a separation
-  /// Whether there is a contact although the number of roots that root parity counts is even.
+  /// Whether there is a contact that root parity cannot see, because it counts an even number of roots.
   bool unseen_by_parity = false;
 
   bool operator==(const Explanation&) const = default;

@@ -13,8 +13,8 @@ namespace nearmiss {
 struct ContactFeatures {
   enum class Multiplicity : std::uint8_t {
     planar,    ///< F, the coplanarity of the vertices, is identically zero
-    simple,    ///< the time is a simple root of F
-    multiple,  ///< the time is a double or triple root of F
+    simple,    ///< the time of the contact is a simple root of F
+    multiple,  ///< the time of the contact is a double or triple root of F
   };
   enum class Time : std::uint8_t { start, inside, end };  ///< t = 0, 0 < t < 1, t = 1
   enum class Location : std::uint8_t {

@@ -22,8 +22,8 @@ struct Decision {
   KnownTimes known = {};  ///< results of this decision, from which the search of EarliestTime can start
 };
 
-/// The decision on a query that the filter left at `stage`. If `stage` is `undecided`, exact arithmetic
-/// decides the query.
+/// Turns the filter's result for a query, `stage`, into a decision. If `stage` is `undecided`, exact
+/// arithmetic decides the query.
 Decision settle(const Query& query, FilterStage stage);
 
 /// Decides by the swept boxes, the certified filter, and, if these leave the query undecided, exact
@@ -37,7 +37,7 @@ void decide(std::span<const Query> queries, std::span<Decision> decisions);
 
 bool collides(const Query& query);
 
-/// The decision on a query that exact arithmetic makes alone, without boxes and filter.
+/// Decides a query by exact arithmetic alone, without the boxes and the filter.
 Decision decide_exactly(const Query& query);
 bool collides_exactly(const Query& query);
 

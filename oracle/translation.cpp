@@ -34,8 +34,8 @@ Point start(const Query& query, int i) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// The position of point i at t = 1 in the frame in which point j is at rest; nothing if this position, or
-/// the velocity of point j, has coordinates that are not doubles.
+/// The position of point i at t = 1 in the frame in which point j is at rest. The result is nothing if this
+/// position, or the velocity of point j, has a coordinate that is not a double.
 std::optional<Point> relative_end(const Query& query, int i, int j) {
   std::array<double, 3> end{};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -20,10 +20,11 @@ enum class RelativeMotion : std::uint8_t {
 RelativeMotion relative_motion(const Query& query);
 
 /// Whether primitives at relative rest or in relative translation meet. If they are at rest, exact static
-/// predicates test whether they meet at t = 0. In translation, the predicates test, for vertex-triangle,
-/// whether the segment along which x0 moves meets the triangle; and for edge-edge, whether one edge meets the
-/// parallelogram that the other edge sweeps. The result is nothing if the predicates cannot decide, because
-/// the end of the relative path is not a double, or a primitive has no length or area.
+/// predicates test whether they meet at t = 0. In translation, the predicates look at the motion relative to
+/// one primitive, which is then at rest. For vertex-triangle, they test whether the segment along which x0
+/// moves meets the triangle. For edge-edge, they test whether one edge meets the parallelogram that the other
+/// edge sweeps. The predicates cannot decide if the end of this motion is not a double, or if a primitive has
+/// no length or area. Then the result is nothing.
 std::optional<bool> meets_by_translation(const Query& query);
 
 }  // namespace nearmiss

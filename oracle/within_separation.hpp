@@ -12,8 +12,8 @@ struct KnownApproach {
   /// `boxes`, `planes` and `apart`: the distance is always above h. `within`: the distance falls below h at
   /// some time. `undecided`: the bounds prove neither of these.
   FilterStage stage{};
-  /// An interval that contains the earliest time at which the distance is at most h, and the time at which
-  /// the distance falls below h, if there are such times.
+  /// An interval that contains two times, if they exist: the earliest time at which the distance is at most
+  /// h, and the time at which the distance first falls below h.
   Enclosure time{0, 1};
   double estimate = 1;  ///< an uncertified estimate of the earliest time
 };

@@ -26,8 +26,7 @@ class Answers {
   /// smallest distance is exactly h > 0.
   [[nodiscard]] bool agree() const { return disagreement().empty(); }
   /// The contradictions and the missing answers, such as "collision (no: exact; yes: certificate)"; "" if
-  /// there are none. `by_filter` is the answer of the filter, which is compared with the answers of the
-  /// methods.
+  /// there are none. The answers of the methods are also compared with `by_filter`, the answer of the filter.
   [[nodiscard]] std::string disagreement(const Answer& by_filter = {}) const;
 
   /// Whether there is a collision that root parity cannot detect, because the number of roots is even.

@@ -45,8 +45,8 @@ Query with_next_separation(const Query& query, double towards) {
   return with_separation(query, std::nextafter(query.separation, towards));
 }
 
-/// Like is_proved_to_meet(), but the separation is the next double above h. If h is the largest double,
-/// returns true without a proof, because every distance is at most infinity.
+/// Like is_proved_to_meet(), but with the next double above h as the separation. If h is the largest double,
+/// returns true without a proof: the next number is infinity, and every distance is at most infinity.
 bool is_proved_to_meet_above(const Query& query, const Span& span) {
   return query.separation == largest || is_proved_to_meet(with_next_separation(query, largest), span);
 }

@@ -18,7 +18,7 @@ namespace nearmiss {
 certificates::Statement statement_about(const Query& query, std::string_view claim, const Span& span,
                                         bool is_strict);
 
-/// What a certificate proves; nothing if there is no certificate, or if the checker refuses it.
+/// The statement that a certificate proves; nothing if there is no certificate, or if the checker refuses it.
 std::optional<certificates::Statement> proved(const std::optional<std::string>& certificate);
 
 /// Whether certificates prove a decision. No certificate can prove that the smallest distance is exactly
@@ -28,19 +28,20 @@ std::optional<certificates::Statement> proved(const std::optional<std::string>& 
 bool is_proved(const Query& query, const Decision& decision);
 
 /// Checks whether certificates prove the narrowest enclosure of the earliest time of a query with a collision
-/// or a tie. They must prove that the distance is above h before the enclosure, and at most h at some time in
-/// it. For h > 0, they must also prove that the distance is below h at some time before the next double after
-/// the enclosure. If the distance only touches h in the enclosure, certificates need only prove that, up to
-/// the end of the enclosure, the smallest distance is above the largest double below h, and at most the
-/// smallest double above h. Returns "" if the checker accepts the certificates, else what is not proved, such
-/// as "time (not proved: before)".
+/// or a tie. The certificates must prove that the distance is above h before the enclosure, and at most h at
+/// some time in the enclosure. For h > 0, they must also prove that the distance is below h at some time
+/// before the next double after the enclosure. If the distance only touches h in the enclosure, certificates
+/// need only prove that, up to the end of the enclosure, the smallest distance is above the largest double
+/// below h, and at most the smallest double above h. Returns "" if the checker accepts the certificates, else
+/// a text that names the missing proof, such as "time (not proved: before)".
 ///
-/// Certificates of bounds of the smallest distance are not checked, because such certificates take several
-/// times as long as those of decisions and times.
+/// The certificates of bounds of the smallest distance are not checked: they take several times as long as
+/// the certificates of decisions and times.
 std::string time_disagreement(const Query& query, const Decision& decision);
 
-/// How the answers of all methods and the decision contradict each other. If they agree, the result says
-/// which part of the decision or of the earliest time is not proved, and is "" if everything is proved.
+/// How the answers of all methods and the decision contradict each other. If there is no contradiction, the
+/// result names the part of the decision or of the earliest time that certificates do not prove; it is "" if
+/// they prove everything.
 std::string disagreement(const Query& query, const Decision& decision, const Answers& answers);
 
 }  // namespace nearmiss

@@ -12,8 +12,8 @@
 
 namespace nearmiss {
 
-/// A method's answers to questions about a query. A member without a value stands for a question that the
-/// method leaves open.
+/// A method's answers to questions about a query. A member has no value if the method leaves its question
+/// open.
 struct Answer {
   std::optional<bool>
       collision{};  ///< whether the primitives meet; for h > 0, whether the distance falls below h
@@ -23,7 +23,7 @@ struct Answer {
   /// Whether the method answers at least one of these questions about the query.
   [[nodiscard]] bool is_answer() const { return collision || at_most || on_boundary || odd; }
 
-  std::size_t detail = 0;  ///< for a fuzzer: how many bits the length of a certificate has, below 32
+  std::size_t detail = 0;  ///< for a fuzzer: the number of bits of a certificate's length, below 32
 };
 
 /// Which of these questions a method promises to answer.
@@ -36,8 +36,8 @@ Answer to_answer(const Query& query, const Decision& decision);
 /// The filter's answer, taken from a decision; an empty answer if exact arithmetic decided.
 Answer filter_answer(const Query& query, const Decision& decision);
 
-/// The answer that the certificate of the oracle's decision proves; an empty one if there is no certificate,
-/// or if the checker of tools/certificates/ refuses it.
+/// The answer that the certificate of the oracle's decision proves. The answer is empty if there is no
+/// certificate, or if the checker of tools/certificates/ refuses it.
 Answer proved_answer(const Query& query);
 
 /// "complete" or "parity".

@@ -1,4 +1,4 @@
-// Numbers with a bound of their error. Every operation computes the bound of its result.
+// Numbers that carry a bound of their error. Every operation also computes the error bound of its result.
 #pragma once
 
 #include <cmath>
@@ -11,10 +11,10 @@ namespace nearmiss::certified {
 /// anything overflows, the error is infinite or NaN, and no sign is certain.
 ///
 /// Rounding changes a result x by at most roundoff<Real> |x|, and underflow changes a product by at most
-/// product_underflow<Real> times `smallest`. Two numbers in the formulas below may be too small: |x|, if it
-/// is taken from the upper half of a double word, and the bound itself, which has at most six roundings. In
-/// all, a bound is too small by at most 7 · 2^-53 times its value, plus three times the smallest double. The
-/// margins in `growth` and `underflow_of_product` cover this.
+/// product_underflow<Real> times `smallest`. In the formulas below, |x| may be too small if it is taken from
+/// the upper half of a double word, and the bound itself may be too small because it is rounded at most six
+/// times. In all, a bound is too small by at most 7 · 2^-53 times its value, plus three times the smallest
+/// double. The margins in `growth` and `underflow_of_product` cover this.
 template <class Real>
 struct Ball {
   Real x = 0;

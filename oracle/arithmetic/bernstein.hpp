@@ -27,10 +27,10 @@ inline constexpr double smallest = 0x1p-1074;
 /// For double words, `two_product` sums up four products for the lower half of its result, and `operator*`
 /// adds two further products. If nothing underflows, `two_product` is exact. If one of the four products
 /// underflows, the result is below 2^107 units, so its lower half is below 2^54 units, and the partial sums
-/// are below 2^81, 2^81 and 2^56 units. A sum of multiples of the unit is exact below 2^53 units; far above
-/// that, its rounding absorbs the error of its terms; in between, its rounding may double this error. The
-/// error may be doubled in the first two sums or in the third, but not in all. So the four products add at
-/// most 3 + 1/2 + 1/2, and the two further ones add 1.
+/// are below 2^81, 2^81 and 2^56 units. A sum of multiples of the unit is exact below 2^53 units. If the sum
+/// is far above that, its rounding absorbs the error of its terms. If it is only a little above 2^53 units,
+/// its rounding may double this error. The error may be doubled in the first two sums or in the third sum,
+/// but not in all three. So the four products add at most 3 + 1/2 + 1/2, and the two further ones add 1.
 template <class Real>
 inline constexpr double product_underflow = 0.5;
 template <class Real>
@@ -53,7 +53,7 @@ inline constexpr bool is_double_word = false;
 template <class Half>
 inline constexpr bool is_double_word<DoubleWordOf<Half>> = true;
 
-/// x as a Bound<Real>: for a double word, its upper half.
+/// x as a Bound<Real>. For a double word, this is its upper half.
 inline double approximate(double x) { return x; }
 template <class Half>
 Half approximate(const DoubleWordOf<Half>& x) {
@@ -79,7 +79,7 @@ inline constexpr double spread_growth = 1.01;
 inline constexpr double slope_errors = 3;
 inline constexpr double end_rounding = 0x1p-54;  ///< half the distance between doubles just below 1
 inline constexpr double upper_halves =
-    0x1p-52;  ///< error of a difference of upper halves, relative to `largest`
+    0x1p-52;  ///< error of a difference of upper halves, relative to `largest()`
 
 /// A polynomial of degree n - 1, given by its Bernstein coefficients. `error` bounds the errors of these
 /// coefficients, and of all values and coefficients that the functions below compute.
@@ -135,10 +135,11 @@ struct Bernstein {
     return common_sign(std::array<double, 1>{at(t)}, error_near(h));
   }
 
-  /// A bound for the computed value at t: if its magnitude exceeds the bound, the sign on [t - h, t + h] is
-  /// certain. The ends of this interval are in [0, 1], and may have been rounded by at most `end_rounding`.
-  /// The difference of two exact coefficients exceeds that of the computed ones by at most 2 `error`;
-  /// `slope_errors` and `spread_growth` have margins for the roundings here.
+  /// A bound for the computed value at t: if the magnitude of this value exceeds the bound, the sign of the
+  /// polynomial on all of [t - h, t + h] is certain. The ends of this interval are in [0, 1], and may have
+  /// been rounded by at most `end_rounding`. The difference of two exact coefficients exceeds that of the
+  /// computed ones by at most 2 `error`; `slope_errors` and `spread_growth` have margins for the roundings
+  /// here.
   [[nodiscard]] Bound<Real> error_near(const Bound<Real>& h) const {
     using std::abs;
     using std::max;
@@ -151,7 +152,8 @@ struct Bernstein {
     return spread_growth * (error + spread);
   }
 
-  /// The largest magnitude of the coefficients; if they are double words, of their upper halves.
+  /// The largest magnitude of a coefficient. If the coefficients are double words, only their upper halves
+  /// count.
   [[nodiscard]] Bound<Real> largest() const {
     using std::abs;
     using std::max;
@@ -178,10 +180,10 @@ inline constexpr double slope_growth = 6.1;
 inline constexpr double slope_rounding = 50;
 inline constexpr double slope_underflow = 4;
 
-/// The derivative of a cubic, in double or in lanes. Its coefficients are 3 (b_i+1 - b_i). Let U =
-/// roundoff<Real> `largest()`, and H = `smallest` / 2. The errors of two b_i add at most 6 `error`. Two
-/// roundings of numbers up to 6 `largest()` add 12.1 U, and two levels of de Casteljau's algorithm add 36.7
-/// U. Underflow adds at most 5 H to the error, and may make the bound too small by 2 H.
+/// The derivative of a cubic, in double or in lanes. The coefficients of the derivative are 3 (b_i+1 - b_i).
+/// Let U = roundoff<Real> `largest()`, and H = `smallest` / 2. The errors of two b_i add at most 6 `error`.
+/// Two roundings of numbers up to 6 `largest()` add 12.1 U, and two levels of de Casteljau's algorithm add
+/// 36.7 U. Underflow adds at most 5 H to the error, and may make the bound too small by 2 H.
 template <class Real>
 Bernstein<Real, 3> derivative(const Bernstein<Real, 4>& F) {
   return {

@@ -1,4 +1,4 @@
-// Numbers of about 106 bits. Each is the unevaluated sum of two doubles.
+// Numbers of about 106 bits. Each number is the exact sum of two doubles, which are not added.
 #pragma once
 
 #include <cmath>

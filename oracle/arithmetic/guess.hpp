@@ -21,9 +21,9 @@ struct Powers {
   [[nodiscard]] Real curvature(const Real& t) const { return 2 * c[2] + t * (6 * c[3]); }
 };
 
-/// A root near 0 of a cubic F that is not zero at 0; nothing if an iteration shows that not all roots are
-/// real. The method is Laguerre's, which also converges fast to multiple roots. The iteration stops when |F|
-/// is at most `accuracy` times |F(0)|, or after ten steps.
+/// A root near 0 of a cubic F that is not zero at 0. The result is nothing if an iteration shows that some
+/// roots are not real. The method is Laguerre's, which also converges fast to multiple roots. The iteration
+/// stops when |F| is at most `accuracy` times |F(0)|, or after ten steps.
 inline std::optional<double> root_near_zero(const Powers<double>& F, double accuracy = 1e-9) {
   double t = 0;
   constexpr int most_steps = 10;
@@ -52,8 +52,8 @@ Powers<Real> in_powers(const std::array<Real, 4>& b) {
 }
 
 /// A root in [0, 1] of a cubic F that has opposite signs at 0 and 1. The search ends when |F| <= small, or at
-/// the precision of double. The method is Newton's, with bisection after a step that leaves the bracket or is
-/// more than half as long as the step before it.
+/// the precision of double. The method is Newton's. A step that leaves the bracket, or is more than half as
+/// long as the step before it, is replaced by bisection.
 inline double root_between(const Powers<double>& F, double F_0, double F_1, double small) {
   double left = 0;
   double right = 1;

@@ -1,9 +1,10 @@
-// Moving planes prove that a pair stays apart. At any time, two directions separate the primitives strictly:
-// the one between the closest points, and the normal of the closest features, which moves with these features
-// (tools/certificates/README.md gives its formulas). A direction that separates at a time also separates for
-// a while, and the span [from, to] is compact. So the search, which cuts the span into parts, comes to an end
-// unless the smallest distance is exactly the separation. Near a time at which the closest features change,
-// parts may have to be very short. The cuts approach such a time as fast as a root finder approaches a root.
+// Moving planes prove that a pair stays apart. While the distance is above the separation, two directions
+// separate the primitives strictly: the direction between the closest points, and the normal of the closest
+// features, which moves with these features (tools/certificates/README.md gives its formulas). A direction
+// that separates the primitives at a time also separates them for a while, and the span [from, to] is
+// compact. So the search, which cuts the span into parts, comes to an end, unless the smallest distance is
+// exactly the separation. Near a time at which the closest features change, parts may have to be very short.
+// The cuts approach such a time as fast as a root finder approaches a root.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -36,12 +37,12 @@ using certificates::Normal;
 using certificates::RoughVector;
 using certified::ClosestFeatures;
 
-constexpr int most_tries = 50'000;  ///< the largest number of tests of a normal on an interval
+constexpr int most_tries = 50'000;  ///< most tests of whether a normal separates in an interval
 constexpr int most_tries_if_reached = 500;
 constexpr int most_depth = 8'000;
 /// In parts wider than this, double is precise enough to find the closest features.
 constexpr double width_of_doubles = 0x1p-50;
-constexpr int all_features_from = 6;  ///< the depth from which on the normals of all features are tried
+constexpr int all_features_from = 6;  ///< from this depth on, the normals of all features are tried
 /// From this depth on, cuts approach times of change (time_of_change()), and the normals of features are no
 /// longer rounded. Each normal is then tested first in the middle of a part, then in all of the part.
 constexpr int deep = 16;
@@ -70,8 +71,8 @@ Polynomial without_root(Polynomial p, const Number& t) {
   return p;
 }
 
-/// The only root of a polynomial in an interval; nothing unless the Bernstein coefficients show that the
-/// polynomial has exactly one root in the interval.
+/// The only root of a polynomial in an interval, if the Bernstein coefficients show that the polynomial has
+/// exactly one root in the interval. Otherwise the result is nothing.
 std::optional<Root> only_root(const Polynomial& p, const Interval& in) {
   if (p.sign_at(in.lo) == 0 || p.sign_at(in.hi) == 0) return std::nullopt;
   if (OnInterval(p, in.lo, in.hi).changes() != 1) return std::nullopt;
@@ -91,16 +92,16 @@ PolynomialVector times(const Polynomial& factor, const PolynomialVector& v) {
 
 class Separator {
  public:
-  /// `reaches_h` says that the distance is at most h at some time. Then a proof is found only if the distance
-  /// is never below h, and is exactly h only at cuts. So all cuts are in the middle of a part, and few
-  /// normals are tried.
+  /// `reaches_h` says that the distance is at most h at some time. In this case, a proof is found only if the
+  /// distance is never below h, and is exactly h only at cuts. So all cuts are in the middle of a part, and
+  /// few normals are tried.
   Separator(const Query& query, bool is_strict, bool reaches_h)
       : gaps_(query, is_strict),
         halves_only_(reaches_h),
         tries_left_(reaches_h ? most_tries_if_reached : most_tries) {}
 
-  /// Covers [lo, hi], or [lo, hi) if `open`, with pieces, and cuts each part for which it finds no normal.
-  /// Returns false if the search gives up.
+  /// Covers [lo, hi] with pieces or, if `open` is true, [lo, hi). Cuts each part for which it finds no
+  /// normal. Returns false if the search gives up.
   bool cover(const Number& lo, const Number& hi, bool open) {
     std::vector<Part> parts{{{lo, hi}}};  // the earliest part is the last element
     while (!parts.empty()) {
@@ -114,9 +115,9 @@ class Separator {
     return true;
   }
 
-  /// Extends each piece as far as its normal separates the primitives. Narrow pieces are extended first: they
-  /// are where the primitives are nearest, and their normals often also separate the primitives in the pieces
-  /// before and after.
+  /// Extends each piece as far as its normal separates the primitives. Narrow pieces are extended first. In
+  /// these pieces, the primitives are closest to each other, and a normal that separates the primitives there
+  /// often also separates them in the pieces before and after.
   void merge(bool open) {
     const auto is_before = [](const Piece& a, const Piece& b) {
       return a.is_extended != b.is_extended ? b.is_extended : a.at.width.x < b.at.width.x;
@@ -128,8 +129,8 @@ class Separator {
     }
   }
 
-  /// Replaces each normal for which find() tried no rounded versions by a rounded version that also separates
-  /// the primitives, if there is such a version.
+  /// For some normals, find() tried no rounded versions. Replaces each of these normals by a rounded version
+  /// that also separates the primitives, if there is one.
   void round(bool open) {
     for (Piece& piece : pieces_)
       for (const int bits : certificates::roundings) {
@@ -180,8 +181,8 @@ class Separator {
     if (at.lo < first) parts.push_back({{at.lo, first}, depth + 1, obstacle, {}, change.has_value()});
   }
 
-  /// Refines a root until its interval is at most 2^20 times as long as the distance to either end of the
-  /// part.
+  /// Refines a root until its interval is at most 2^20 times as long as the distance from this interval to
+  /// either end of the part.
   static void approach(Root& root, const Interval& in) {
     constexpr int most_refinements = 40;
     const Number much = 0x1p-20;
@@ -194,8 +195,8 @@ class Separator {
 
   /// The obstacle of a normal is the polynomial whose sign keeps the normal from separating the primitives in
   /// all of a part. Returns the obstacle of the normal that separates the primitives in the middle of the
-  /// part. If this polynomial is 0 at an end of the part, returns the obstacle of a normal that separates the
-  /// primitives at that end, if such a normal is known.
+  /// part. But if this obstacle is 0 at an end of the part, and a normal is known that separates the
+  /// primitives at that end, returns the obstacle of that normal.
   const Polynomial* first_obstacle(const Interval& in, bool open) {
     const auto of = [&](Normal* normal) -> const Polynomial* {
       for (std::size_t gap = 0; normal != nullptr && gap < gaps_.size(); ++gap)
@@ -216,9 +217,8 @@ class Separator {
   }
 
   /// The root of an obstacle in a part, if the obstacle has exactly one root there. Otherwise the root of the
-  /// lowest derivative of the obstacle that has exactly one root there. This is a time at which the obstacle
-  /// changes its sign or has an extremum, or the centre of several such times. Roots at the ends of the part
-  /// do not count.
+  /// lowest derivative that has exactly one root there. At this root, the obstacle changes its sign or has an
+  /// extremum, or the root is the centre of several such times. Roots at the ends of the part do not count.
   [[nodiscard]] static std::optional<Root> time_of_change(const Polynomial& obstacle, const Interval& in) {
     Polynomial p = without_root(without_root(obstacle, in.lo), in.hi);
     for (; p.degree() >= 1; p = p.derivative())

@@ -15,8 +15,8 @@ using certified::dot;
 using certified::operator-;
 using certified::Vec;
 
-/// The barycentric weights of two points, one in each primitive. There is one weight for each of the vertices
-/// x0 to x3.
+/// The barycentric weights of a point in each of the two primitives. There is one weight for each of the
+/// vertices x0 to x3.
 template <class Real>
 using WeightsOfPoints = std::array<Real, 4>;
 

@@ -1,7 +1,7 @@
-// Two points that are within h, the separation, of each other at a rational time prove that the primitives
-// come within h. For h = 0, the time of contact may be irrational. Then one of two facts proves the contact:
-// the four vertices become coplanar while all weights are positive, or a vertex passes through the inside of
-// an edge (tools/certificates/README.md says why).
+// The usual proof gives a rational time and a point of each primitive. At this time, the two points are at
+// most h apart, where h is the separation. For h = 0, the time of contact may be irrational. Then one of two
+// facts proves the contact: the four vertices become coplanar while all weights are positive, or a vertex
+// passes through the inside of an edge (tools/certificates/README.md says why).
 #include <gmpxx.h>
 
 #include <algorithm>
@@ -51,8 +51,8 @@ bool is_in(const Time& time, const Span& span) {
   return Time(span.from) <= time && (span.is_open ? time < Time(span.to) : time <= Time(span.to));
 }
 
-/// The beginning of a certificate whose proof uses no time after `last`. The key "to" has the value `last` if
-/// the span is open, else the end of the span.
+/// The beginning of a certificate whose proof uses no time after `last`. The value of the key "to" is `last`
+/// if the span is open, else the end of the span.
 std::string heading_until(const std::string& last, const Query& query, const Span& span) {
   return heading(query, "meets", span.from, span.is_open ? last : certificates::to_text(Number(span.to)));
 }
@@ -73,9 +73,9 @@ class Meeting {
     in_unit_.separation = std::ldexp(query.separation, -exponent);
   }
 
-  /// The proof that the distance is at most h (if `is_strict_`, below h) at time t. If points near the
-  /// closest ones are within h of each other, the proof uses those points, because their weights need fewer
-  /// digits.
+  /// The proof that, at time t, the distance is at most h or, if `is_strict_`, below h. If two points near
+  /// the closest points are also within h of each other, the proof uses those two points, because their
+  /// weights can have fewer digits.
   [[nodiscard]] std::optional<std::string> at(const mpq_class& t) const {
     if (!is_in(t, span_)) return std::nullopt;
     const PositionsAt x(query_, t);
@@ -138,8 +138,8 @@ class Meeting {
   }
 
   /// Rounds the weights to each number of bits in `bits`, one number after the other, until the points with
-  /// the rounded weights are within h of each other. Returns these weights; nothing if no number of bits
-  /// suffices.
+  /// the rounded weights are within h of each other. Returns the rounded weights, or nothing if no number of
+  /// bits suffices.
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> shortened(const WeightsOfPoints<Real>& weights,
                                                                     std::initializer_list<unsigned> bits,
@@ -153,8 +153,8 @@ class Meeting {
     return std::nullopt;
   }
 
-  /// The weights, rounded to multiples of 2^-bits that add up to 1 for each primitive; nothing if one of the
-  /// rounded weights would be negative.
+  /// The weights, rounded to multiples of 2^-bits. For each primitive, the rounded weights add up to 1. The
+  /// result is nothing if one of them would be negative.
   template <class Real>
   [[nodiscard]] std::optional<WeightsOfPoints<mpq_class>> rounded_weights(
       const WeightsOfPoints<Real>& weights, unsigned bits) const {
@@ -186,7 +186,7 @@ class Meeting {
   Query query_;
   Span span_;
   bool is_strict_;
-  Query in_unit_;  ///< the query, with rounding errors, in a unit that makes its largest coordinate 1 to 2
+  Query in_unit_;  ///< the query in a unit in which its largest coordinate is 1 to 2, rounded
   mpq_class squared_h_;
 };
 
@@ -244,7 +244,8 @@ class Crossing {
                     "}");
   }
 
-  /// Whether all components of `area` are multiples of one polynomial that changes its sign from p to q.
+  /// Whether all components of `area` are multiples of one polynomial, and this polynomial has opposite signs
+  /// at p and q.
   [[nodiscard]] static bool is_line_of_one_root(const PolynomialVector& area, const Number& p,
                                                 const Number& q) {
     const Polynomial* one = nullptr;
@@ -293,13 +294,14 @@ std::optional<std::string> certify_contact(const Query& query, const Span& span,
   return certify_first_contact(span, meeting, crossing, contact->time);
 }
 
-/// The searches for the time of a proof give up at about this many bits. If the distance touches h only for a
-/// moment, at an irrational time, there is no proof, so certify_touch() gives up at fewer bits.
+/// The functions below that search for the time of a proof give up when this time needs about this many bits.
+/// If the distance touches h only for a moment, at an irrational time, there is no proof. So certify_touch()
+/// gives up at fewer bits.
 constexpr unsigned most_bits = 10'000;
 constexpr unsigned most_bits_of_touch = 5'000;
 
-/// The proof that the distance is h at some time. If the first such time is rational, the proof uses it.
-/// Otherwise the proof uses a time soon after the first such time. This proof is found only if the distance
+/// The proof that the distance is h at some time. If the first such time is rational, the proof uses this
+/// time. Otherwise the proof uses a time soon after the first such time, and is found only if the distance
 /// stays at h.
 std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   if (const auto rational = time.as_rational()) return meeting.at(mpq_class(rational->mpq()));

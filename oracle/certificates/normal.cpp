@@ -144,7 +144,7 @@ bool Normal::separates_at(const Number& t) {
     return true;
   };
   const int least = gaps_->is_strict() ? 1 : 0;
-  // The polynomial `excess` is longer than `n_d`, so its sign is determined last.
+  // The polynomial `excess` is longer than `n_d`, so the signs of `excess` are determined last.
   return is_at_all_gaps([&](const auto& each) { return each.n_d.sign_at(t) > 0; }) &&
          (!gaps_->has_separation() ||
           is_at_all_gaps([&](const auto& each) { return each.excess.sign_at(t) >= least; }));

@@ -18,9 +18,9 @@ namespace nearmiss::certificates {
 using exact::Polynomial;
 using exact::PolynomialVector;
 
-/// The gaps of a query: the difference of each vertex of the first primitive and each vertex of the second. A
-/// direction separates the primitives if the length of each gap along this direction is above h or, unless
-/// `is_strict`, equal to h > 0.
+/// The gaps of a query: the vectors from each vertex of the second primitive to each vertex of the first. A
+/// direction separates the primitives if each gap, measured along this direction, is longer than h. If
+/// `is_strict` is false, a gap may also be equal to h > 0.
 class Gaps {
  public:
   Gaps(const Query& query, bool is_strict);
@@ -34,7 +34,7 @@ class Gaps {
   const std::array<PolynomialVector, 4>& points();
 
   [[nodiscard]] std::size_t size() const { return rough_.size(); }
-  /// A gap. Exact and rough lengths have different units.
+  /// A gap, in exact polynomials or in rough ones. Exact and rough gaps have different units.
   template <class AnyPolynomial>
   [[nodiscard]] const certified::Vec<AnyPolynomial>& vector(std::size_t gap);
   /// h², in the square of the gaps' unit.
@@ -69,7 +69,8 @@ class Normal {
   /// or, if `open`, [lo, hi).
   [[nodiscard]] bool separates(const Interval& interval, bool open);
   [[nodiscard]] bool separates_at(const Number& t);
-  /// The polynomial of this gap whose sign makes separates() false; null if this gap has no such polynomial.
+  /// The polynomial of this gap whose sign makes separates() false; null if no polynomial of this gap does
+  /// so.
   [[nodiscard]] const Polynomial* obstacle(std::size_t gap, const Interval& interval, bool open);
 
   /// Whether, along this direction, the first vertex of the first primitive is behind the first vertex of the
@@ -100,17 +101,18 @@ class Normal {
 /// The numbers of bits to which normals are rounded, in the order of the attempts; 0 means not rounded.
 constexpr std::array roundings{6, 20, 50, 0};
 
-/// A multiple of n with its coefficients rounded to integers of at most about `bits` bits; 0 if n is tiny.
+/// A multiple of n, whose coefficients are rounded to integers of at most about `bits` bits. The result is 0
+/// if n is tiny.
 RoughVector rounded(const RoughVector& n, int bits);
 
-/// The normal of a pair of features and its opposite. Each has several versions: one is not rounded, the
-/// others are rounded to integers of different sizes.
+/// The normal of a pair of features, and the opposite normal. Each of these two normals has several versions:
+/// one version is not rounded, and the others are rounded to integers of different sizes.
 class FeatureNormal {
  public:
   FeatureNormal(const PolynomialVector& n, Gaps& gaps) : gaps_(&gaps), exact_(n, gaps) {}
 
-  /// The versions of the normal; if it is_behind_at(t), those of its opposite. The version with the smallest
-  /// integers comes first, and the version that is not rounded comes last.
+  /// The versions of the normal or, if the normal is_behind_at(t), the versions of the opposite normal. The
+  /// version with the smallest integers comes first, and the version that is not rounded comes last.
   [[nodiscard]] std::vector<Normal>& in_front_at(const Number& t);
 
  private:

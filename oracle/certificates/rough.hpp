@@ -1,5 +1,5 @@
-// Polynomials in t whose coefficients are doubles with error bounds. They show most signs that certificates
-// need.
+// Polynomials in t whose coefficients are doubles with error bounds. Most signs that certificates need can be
+// found with these polynomials.
 #pragma once
 
 #include <algorithm>
@@ -30,8 +30,8 @@ struct Interval {
   certified::Ball<double> begin, width;
 };
 
-/// a_0 + a_1 t + ... + a_n t^n, with n <= 8. Unlike exact polynomials, it may have leading coefficients of 0.
-/// So sums and products have the degrees that they have in the checkers.
+/// a_0 + a_1 t + ... + a_n t^n, with n <= 8. Unlike an exact Polynomial, a RoughPolynomial may have leading
+/// coefficients of 0. So sums and products have the same degrees as in the checkers.
 class RoughPolynomial {
  public:
   using Coefficient = certified::Ball<double>;
@@ -51,7 +51,8 @@ class RoughPolynomial {
     return value;
   }
 
-  /// Whether all Bernstein coefficients on an interval are positive; nothing if that is not certain.
+  /// Whether all Bernstein coefficients on an interval are positive. The result is nothing if the error
+  /// bounds leave this open.
   [[nodiscard]] std::optional<bool> is_positive(const Interval& interval) const {
     const std::size_t n = size_;
     auto c = a_;

@@ -1,4 +1,5 @@
-// Certificates of decisions, times and distances, made of statements that the primitives are apart or meet.
+// Certificates of decisions, times and distances. They consist of proofs that the primitives stay apart, or
+// that they meet.
 #include <cmath>
 
 #include "oracle/certificates/certificate.hpp"

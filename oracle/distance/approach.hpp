@@ -17,14 +17,15 @@ struct Approach {
   bool enough = false;  ///< whether lower >= needed(upper)
 };
 
-/// Encloses the smallest distance. The search computes the distance at times near its minimum, and at further
+/// Encloses the smallest distance. The search computes the distance at times near the minimum, and at further
 /// times until certified bounds around these times cover the step. The search computes in double if double
-/// resolves the distance, else in double words, and finally with 384 bits. The errors of the three precisions
-/// are about 2^-48, 2^-98 and 2^-378 of the largest difference of two vertices. The search gives up if it
-/// needs too many times, for example to enclose a minimum narrowly while the normal turns.
+/// resolves the distance, else in double words. If this search gives up, another one computes with 384 bits.
+/// The errors of the three precisions are about 2^-48, 2^-98 and 2^-378 of the largest difference of two
+/// vertices. A search gives up if it needs too many times, for example to enclose a minimum narrowly while
+/// the normal turns.
 Approach closest_approach(const VertexDifferences& differences, const NeededDistance& needed);
 
-/// When the distance first falls below a bound (`low` of first_time_below()).
+/// The time at which the distance first falls below a bound (`low` in first_time_below()).
 struct FirstTime {
   bool never = false;  ///< the distance certainly stays above the bound: it is at least `required`
   bool comes = false;  ///< the distance certainly falls below the bound

@@ -31,9 +31,10 @@ struct ClosestFeatures {
   std::size_t vertex = 0, from = 0, to = 0;
 };
 
-/// Points of the two primitives, and their distance. These points certainly belong to the primitives: their
-/// weights are not negative and add up to 1. (For a triangle, rounding may add 2 roundoff<Real> to the sum;
-/// see points_error() in moment.hpp.) It is not certain that these points are the closest ones.
+/// A point of each primitive, and the distance of the two points. The points certainly belong to the
+/// primitives: their barycentric weights are not negative and add up to 1. (For a triangle, rounding may add
+/// 2 roundoff<Real> to the sum; see points_error() in moment.hpp.) It is not certain that they are the
+/// closest points.
 template <class Real>
 struct ClosestPoints {
   ClosestFeatures features;
@@ -47,9 +48,9 @@ constexpr std::size_t second_primitive(Kind kind) { return static_cast<std::size
 
 namespace detail {
 
-/// A pair of points that may be the closest ones. Their difference is p - (a q + b r). For interiors, p, q
-/// and r are those of NormalPairs. For a vertex and an edge, p is the vertex and q the edge, both relative to
-/// `from`, and b is 0.
+/// A pair of points that may be the closest points of the primitives. The difference of the two points is p -
+/// (a q + b r). For interiors, p, q and r are those of NormalPairs. For a vertex and an edge, p is the vertex
+/// and q the edge, both relative to `from`, and b is 0.
 template <class Real>
 struct Candidate {
   ClosestFeatures features;
@@ -59,8 +60,8 @@ struct Candidate {
 };
 
 /// Replaces `best` by another candidate, unless the points of that candidate are farther apart. If the points
-/// of both are equally far apart, the other candidate replaces `best`: the points in the interiors are
-/// considered last, and only they give the normal.
+/// of both candidates are equally far apart, the other candidate replaces `best`. The reason is that the
+/// interiors are considered last, and only their closest points give the normal.
 template <class Real>
 void take_closer(Candidate<Real>& best, const ClosestFeatures& features, const Vec<Real>& difference,
                  const Real& a, const Real& b) {
@@ -87,9 +88,9 @@ void consider_edge(const VerticesAt<Real>& x, std::size_t vertex, std::size_t fr
   take_closer(best, features, p - weight * edge, weight, Real(0));
 }
 
-/// Considers the feet of the common normal N as the closest points of the interiors. Their weights a and b
-/// solve p = a q + b r + c N. Vertex-triangle: the feet count if a, b >= 0 and a + b <= 1. Edge-edge: they
-/// count if a and b are in [0, 1].
+/// Considers the feet of the common normal N as the closest points of the interiors. The weights a and b of
+/// the feet solve p = a q + b r + c N. Vertex-triangle: the feet count if a, b >= 0 and a + b <= 1.
+/// Edge-edge: they count if a and b are in [0, 1].
 template <class Real>
 void consider_interiors(const VerticesAt<Real>& x, Candidate<Real>& best) {
   const Kind kind = x.differences().kind();
@@ -139,8 +140,9 @@ ClosestPoints<Real> closest_points(const VerticesAt<Real>& x) {
   return detail::points_of(x, best);
 }
 
-/// The closest points of the parts that `features` names, computed faster than by closest_points(). If these
-/// parts are interiors that do not contain the feet of their common normal, all parts are considered.
+/// The closest points of only those parts of the primitives that `features` names. This takes less time than
+/// closest_points(). If the parts are interiors that do not contain the feet of their common normal, all
+/// parts of the primitives are considered.
 template <class Real>
 ClosestPoints<Real> closest_points_of(const VerticesAt<Real>& x, const ClosestFeatures& features) {
   detail::Candidate<Real> best;

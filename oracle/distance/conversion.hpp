@@ -8,8 +8,8 @@
 
 namespace nearmiss::certified {
 
-/// above(x) is the next double above x >= 0, and below(x) the next smaller one, but at least 0. The bits of
-/// positive doubles, read as integers, are in the order of the doubles.
+/// above(x) is the next double above x >= 0. below(x) is the next smaller double, but at least 0. Positive
+/// doubles are in the same order as the integers that have the same bits.
 inline double above(double x) {
   return x < std::numeric_limits<double>::infinity()
              ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(x + 0.0) + 1)
@@ -41,8 +41,8 @@ class Conversion {
   }
 
  private:
-  /// The distance divided by the unit. Applies `next` to the two results that may be rounded: the quotient of
-  /// the mantissas and, because of underflow, the result of ldexp.
+  /// The distance divided by the unit. Two results may be rounded: the quotient of the mantissas and, if it
+  /// underflows, the result of ldexp. The function applies `next` to both.
   template <class Next>
   [[nodiscard]] double divided(double distance, const Next& next) const {
     int exponent = 0;

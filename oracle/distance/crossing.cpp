@@ -34,7 +34,7 @@ struct Dual {
   }
 };
 
-/// A bound of the error of a number that VertexDifferences has scaled to its unit.
+/// A bound of the error that VertexDifferences makes when it scales a number to its unit.
 constexpr double scaling_error = 0x1p-1072;
 
 // Converts a component of a difference of vertices, or the separation h, to another number type.
@@ -53,7 +53,7 @@ Number converted(const DoubleWord& from) {
   return to;
 }
 
-/// The two primitives at a time, which may be an interval.
+/// The two primitives at a time. If Number is a Ball, the time may be an interval.
 template <class Number>
 class At {
  public:
@@ -63,7 +63,7 @@ class At {
     squared_h_ = converted_h * converted_h;
   }
 
-  /// (distance² - h²) times a positive number, for the distance of the points, lines or planes that contain
+  /// (d² - h²) times a positive number, where d is the distance of the points, lines or planes that contain
   /// the features.
   [[nodiscard]] Number excess() const {
     const auto& [combination, vertex, from, to] = features_;
@@ -108,7 +108,8 @@ class At {
       if (!is_positive(along) || !is_positive(squared - along)) return false;
       n = squared * n - along * edge;
     }
-    // n points to `vertex` from the point `from` or the edge. `vertex` may belong to either primitive.
+    // The vector n points from the vertex `from`, or from the edge, to `vertex`. `vertex` may belong to
+    // either primitive.
     const auto is_first = [&](std::size_t i) { return i < second_primitive(differences_.kind()); };
     for (std::size_t i = 0; i < static_cast<std::size_t>(vertices(differences_.kind())); ++i) {
       if (i == vertex || i == from || (has_edge && i == to)) continue;

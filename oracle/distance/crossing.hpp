@@ -1,4 +1,4 @@
-// The two neighbouring doubles between which the distance first falls to the separation.
+// Finds the two neighbouring doubles between which the distance first falls to the separation.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,9 @@
 namespace nearmiss::certified {
 
 /// Narrows `time` to neighbouring doubles. `time` must contain the first time at which the distance is at
-/// most the separation h > 0. In the result, the distance is above h from the beginning of `time` to the
-/// first double, and below h at the second one. The result is nothing if this cannot be shown, for example
-/// because the closest features change in `time`.
+/// most the separation h > 0. From the beginning of `time` to the first of the two doubles, the distance is
+/// above h. At the second double, the distance is below h. The result is nothing if this cannot be shown, for
+/// example because the closest features change in `time`.
 std::optional<Enclosure> narrow_crossing(const Query& query, const Enclosure& time);
 
 }  // namespace nearmiss::certified

@@ -15,7 +15,8 @@
 namespace nearmiss::certified {
 
 /// A search that looks at the primitives at some times of the step, until certified bounds around these times
-/// cover the step. Times have the type Real. Positions have this type only if double is not precise enough.
+/// cover the step. Times have the type Real. Positions have the type double or, if double is not precise
+/// enough, Real.
 template <class Real>
 class DistanceSearch {
  public:
@@ -58,7 +59,8 @@ class DistanceSearch {
   }
 
  private:
-  /// How far (`value`, at most `most`) certified bounds around a time reach in one direction.
+  /// Certified bounds around a sampled time cover the step in one direction over a length of `value`, which
+  /// is at most `most`.
   struct Reach {
     double required = 0;  ///< the distance that the bounds certify
     double most = 0, value = 0;
@@ -70,8 +72,8 @@ class DistanceSearch {
     Reach ahead{}, behind{};  ///< the last results of covered()
   };
 
-  /// Two neighbouring sampled times between which bounds do not cover all of the step. `before` is the index
-  /// of the earlier time, `width` the time between the two. Bounds around the earlier time cover
+  /// Two neighbouring sampled times, if certified bounds do not cover all of the step between them. `before`
+  /// is the index of the earlier time, `width` the time between the two. Bounds around the earlier time cover
   /// `covered_before` of this width, and bounds around the later time `covered_behind`.
   struct Gap {
     std::size_t before;
@@ -112,9 +114,9 @@ class DistanceSearch {
     return a.t < rough && rough < b.t ? look_at(t) : look_precisely(t);
   }
 
-  /// Whether the errors of a moment are small: the error of the distance compared with the distance, and the
-  /// error of the first lower bound compared with the required distance or, if that is larger, with 0.3 of
-  /// the distance.
+  /// Whether the errors of a moment are small. The error of the distance must be small compared with the
+  /// distance. The error of the first lower bound must be small compared with the required distance or 0.3 of
+  /// the distance, whichever is larger.
   [[nodiscard]] bool resolves(const Moment& moment) const {
     const Separation& separation = moment.separations[0];
     if (separation.products.empty()) return false;
@@ -133,8 +135,8 @@ class DistanceSearch {
   }
 
   /// Searches for a minimum of the distance between the times a and b, if the distance falls after a and
-  /// grows before b. Each step looks at the time of the minimum that the moment at a or b predicts, or at the
-  /// middle of a and b if predictions have not helped.
+  /// grows before b. Each step looks at the time at which the moment at a or b predicts the minimum. If
+  /// predictions have not helped, the step looks at the middle of a and b.
   void descend(const SampledTime* a, const SampledTime* b) {
     if (!(a->moment.slope < 0 && b->moment.slope > 0)) return;
     constexpr int most_steps = 60;
@@ -153,7 +155,7 @@ class DistanceSearch {
     }
   }
 
-  /// The time of the minimum of the distance that the moment at a or b predicts. If both moments predict a
+  /// The time at which the moment at a or b predicts the minimum of the distance. If both moments predict a
   /// time between a and b, the prediction of the moment with the steeper slope counts. If neither moment
   /// predicts such a time, returns the middle of a and b.
   static Real guess_between(const SampledTime& a, const SampledTime& b, double width) {
@@ -171,8 +173,8 @@ class DistanceSearch {
     return *times_.insert(next, std::move(time));
   }
 
-  /// How far bounds around a sampled time cover the step from this time on, forward (1) or backward (-1); at
-  /// most `most`.
+  /// The length of the part of the step that bounds around a sampled time cover, from this time forward (1)
+  /// or backward (-1). The result is at most `most`.
   double covered(SampledTime& time, int direction, double most) const {
     Reach& reach = direction > 0 ? time.ahead : time.behind;
     if (reach.required != required_ || reach.most < most)
@@ -224,8 +226,8 @@ class DistanceSearch {
     return true;
   }
 
-  /// The time of a new minimum inside the gap, if a moment at an end of the gap predicts this minimum, else
-  /// some other time in the gap.
+  /// A time in the gap. If a moment at an end of the gap predicts a new minimum inside the gap, this is the
+  /// time of that minimum.
   [[nodiscard]] Real guess_in(const Gap& gap) const {
     const auto sees = [&](const Moment& moment, double step) {
       constexpr double little = 0.5;
@@ -242,9 +244,10 @@ class DistanceSearch {
     return guess && a.t < *guess && *guess < b.t ? *guess : inside(gap);
   }
 
-  /// A time in the uncovered part of a gap: its middle if very little is covered. Otherwise the time is near
-  /// the end of the gap that covers less, because the distance is smaller at this end. The offset into the
-  /// uncovered part is at least eight times the length that the end covers, but at most half of the part.
+  /// A time in the uncovered part of a gap. If very little of the gap is covered, this is the middle of the
+  /// uncovered part. Otherwise the time is near that end of the gap whose bounds cover less, because the
+  /// distance is smaller at this end. The offset into the uncovered part is at least eight times the length
+  /// that these bounds cover, but at most half of the uncovered part.
   [[nodiscard]] Real inside(const Gap& gap) const {
     const double open = gap.width - gap.covered_before - gap.covered_behind;
     const bool is_before = gap.covered_before <= gap.covered_behind;
@@ -256,8 +259,8 @@ class DistanceSearch {
                      : times_[gap.before + 1].t - Real(less + step);
   }
 
-  /// Gives a sampled time more lower bounds of the distance. If the time already has all of them, but they
-  /// cover nothing, looks at the time again, in Real. Returns false if nothing is left to do.
+  /// Gives a sampled time more lower bounds of the distance. If the time already has all lower bounds, but
+  /// they cover nothing, looks at the time again, in Real. Returns false if nothing is left to do.
   bool improve(SampledTime& time, double covered) {
     if (!time.moment.has_all) {
       if (time.moment.is_precise)
@@ -298,10 +301,10 @@ class DistanceSearch {
   }
 
   /// Looks into a gap that ends at a time at which the distance is below `low_`. A step of Newton's method
-  /// from one end of the gap gives the next time to look at. Once Newton's step is short, it is doubled, or
-  /// set to 0.4 of `width` if that is longer. So the next time lies beyond the crossing, and the crossing is
-  /// enclosed from both sides. If `halve`, the next time is the middle of the uncovered part. Returns false
-  /// if nothing more can be done.
+  /// from one end of the gap gives the next time to look at. If Newton's step is short, it is doubled, or set
+  /// to 0.4 of `width` if that is longer. So the next time lies beyond the crossing, and the crossing is
+  /// enclosed from both sides. If `halve` is true, the next time is the middle of the uncovered part. Returns
+  /// false if nothing more can be done.
   bool look_for_crossing(const Gap& gap, double width, bool halve) {
     SampledTime& a = times_[gap.before];
     const SampledTime& b = times_[gap.before + 1];
@@ -337,7 +340,8 @@ class DistanceSearch {
     return true;
   }
 
-  /// Upper bounds of the distance are rounded to double. This is the relative precision of the rounding.
+  /// Upper bounds of the distance are rounded to double. The relative error of this rounding is below this
+  /// number.
   static constexpr double resolution = 0x1p-46;
 
   /// Whether the upper bound of the distance differs from `low_` by more than its rounding error.
@@ -345,8 +349,8 @@ class DistanceSearch {
     return std::abs(time.moment.upper - low_) > resolution * low_;
   }
 
-  /// The time until the distance is `low_`, by a step of Newton's method; 0 or NaN if the distance does not
-  /// fall.
+  /// The time until the distance is `low_`, as a step of Newton's method estimates it; 0 if the distance does
+  /// not fall.
   [[nodiscard]] double time_to_low(const Moment& moment) const {
     return moment.rate < 0 ? (low_ - moment.upper) / moment.rate : 0;
   }

@@ -13,10 +13,10 @@
 
 namespace nearmiss::certified {
 
-/// The results of the search about the two primitives at one time. All lengths are in the unit of
+/// Facts and estimates about the two primitives at one time of the step. All lengths are in the unit of
 /// VertexDifferences.
 struct Moment {
-  bool is_precise = false;   ///< whether this was computed in the Real of DistanceSearch, not in double
+  bool is_precise = false;   ///< whether the moment was computed in the Real of DistanceSearch, not in double
   ClosestFeatures features;  ///< the parts of the primitives that contain the closest points, uncertified
   double upper = 0;          ///< a certified upper bound of the distance
   double slope = 0;          ///< a number with the sign of the derivative of the distance, uncertified
@@ -38,8 +38,8 @@ inline Vec<double> direction_of(const Vec<double>& v) {
   return size > 0 ? (1 / size) * v : Vec<double>{};
 }
 
-/// Predicts the minimum of |d + s v|, for closest points with the difference d and the velocity v, which must
-/// not have a component along the features.
+/// Predicts the minimum of |d + s v| over s, for closest points with the difference d and the relative
+/// velocity v. The velocity must not have a component along the features.
 inline void predict(Moment& moment, const Vec<double>& difference, const Vec<double>& velocity) {
   const double squared_speed = dot(velocity, velocity);
   const double squared_distance = dot(difference, difference);
@@ -49,9 +49,10 @@ inline void predict(Moment& moment, const Vec<double>& difference, const Vec<dou
 }
 
 /// Predicts the smallest distance if the closest points lie in the interiors of the primitives. Then the
-/// distance is |F| / |N|, for the coplanarity cubic F and the normal N, and N changes little while F goes to
-/// zero or to its extremum. (The difference of the closest points is less useful: if the primitives slide
-/// along each other, the component of this difference along the velocity consists of rounding errors only.)
+/// distance is |F| / |N|, where F is the coplanarity cubic and N the normal, and N changes little while F
+/// goes to zero or to its extremum. (The difference of the closest points is less useful: if the primitives
+/// slide along each other, the component of this difference along the velocity consists of rounding errors
+/// only.)
 inline void predict(Moment& moment, double distance, const Powers<double>& F) {
   moment.predicted = distance;
   if (!(F.c[0] > 0)) return;
@@ -67,15 +68,16 @@ inline void predict(Moment& moment, double distance, const Powers<double>& F) {
 
 }  // namespace detail
 
-/// A bound of the error of the difference of closest points. The difference is a sum of at most three vertex
-/// differences, each rounded four times and multiplied by an exact weight of at most 1. The additions take at
-/// most three more roundings. The weights of interiors may add up to 1 + 2 roundoff<Real>.
+/// A bound of the error with which the difference of the closest points is computed. This difference is a sum
+/// of at most three vertex differences, each rounded four times and multiplied by an exact weight in
+/// [0, 1]. The additions take at most three more roundings. The weights of interiors may add up to
+/// 1 + 2 roundoff<Real>.
 template <class Real>
 double points_error(const VertexDifferences& differences) {
   return 12 * roundoff<Real> * differences.total_reach();
 }
 
-/// An upper bound of the primitives' distance, from the computed distance of two of their points.
+/// An upper bound of the distance of the primitives, given the computed distance of a point of each.
 template <class Real>
 double upper_bound(const ClosestPoints<Real>& closest, const VertexDifferences& differences) {
   return std::sqrt(closest.squared_distance) * (1 + 0x1p-48) + points_error<Real>(differences) +
@@ -127,8 +129,9 @@ Moment look(const VerticesAt<Real>& x) {
   return moment;
 }
 
-/// Adds the lower bounds that fit the features less well at this time, but may hold for longer. If edges are
-/// nearly parallel, for example, the normal turns much faster than the direction between the closest points.
+/// Adds the other lower bounds. They fit the features less well at this time, but may remain useful for
+/// longer. If edges are nearly parallel, for example, the normal turns much faster than the direction between
+/// the closest points.
 template <class Real>
 void add_other_separations(Moment& moment, const VerticesAt<Real>& x) {
   moment.has_all = true;

@@ -42,8 +42,7 @@ Vec<double> approach_velocity(const VerticesAt<double>& x, const ClosestPoints<d
 }
 
 /// The time until a point that is at d and has the velocity v enters the ball of radius r around the origin.
-/// The result is negative if the point entered the ball in the past, and NaN if the point never enters the
-/// ball.
+/// The result is negative if the point entered the ball before, and NaN if the point never enters the ball.
 double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
   const double a = dot(v, v);
   const double b = dot(d, v);
@@ -52,10 +51,10 @@ double time_to_enter(const Vec<double>& d, const Vec<double>& v, double r) {
   return b < 0 ? c / (root - b) : -(root + b) / a;
 }
 
-/// The next time to look at in a gap, as an offset from one of its ends. The gap has the length `open`, and
-/// beyond that end, a bound covers the length `covered`. The closer the primitives are at a time, the less of
-/// the step a bound around this time covers. So if `covered` is small, the primitives are close at that end,
-/// and the next time is near that end.
+/// The next time to look at in a gap, as an offset from one end of the gap. The gap has the length `open`. On
+/// the other side of this end, a bound covers the length `covered`. The closer the primitives are at a time,
+/// the less of the step a bound around this time covers. So if `covered` is small, the primitives are close
+/// at this end, and the next time is near this end.
 double offset_into(double open, double covered) {
   return std::min(0.5 * open, std::max(8 * covered, std::sqrt(covered * open)));
 }

@@ -10,28 +10,29 @@
 
 namespace nearmiss::certified {
 
-/// The end of a covered range, t + a or t - a, is moved towards t by this number, because of rounding. For
-/// ends in [0, 1], the roundings of the sum and of this correction are at most 2^-54 each. If t + a is above
-/// 1 or t - a is below 0, the range reaches the end or the beginning of the step, and rounding does not
+/// Because of rounding, the end of a covered range, t + a or t - a, is moved towards t by this number. If
+/// this end is in [0, 1], the roundings of the sum and of this correction are at most 2^-54 each. If t + a is
+/// above 1 or t - a is below 0, the range reaches the end or the beginning of the step, and rounding does not
 /// matter.
 inline constexpr double time_rounding = 0x1p-53;
 
-/// Looks at a few times of the step in double. It keeps a list of gaps, the parts of the step that no
-/// certified bound covers. It looks into the first gap until no gap is left, or the distance is below `low`
-/// at some time. It gives up early, because DistanceSearch decides what remains.
+/// Looks at a few times of the step in double. The search keeps a list of gaps, the parts of the step that no
+/// certified bound covers. It looks into the first gap again and again until no gap is left, or the distance
+/// is below `low` at some time. The search gives up early, because DistanceSearch decides the queries that
+/// remain.
 class QuickSearch {
  public:
   /// `low` and `required` are as for first_time_below() (approach.hpp).
   QuickSearch(const VertexDifferences& differences, double low, double required)
       : differences_(differences), low_(low), required_(required) {}
 
-  /// Whether the distance falls below `low`. If the distance falls below `low`, the enclosure contains the
-  /// first time at which it is below `low`, and the distance is at least `required` before it. If the search
+  /// Whether the distance falls below `low`. If it does, the enclosure contains the first time at which the
+  /// distance is below `low`, and the distance is at least `required` before the enclosure. If the search
   /// gives up, neither `never` nor `comes` is set.
   FirstTime decide();
 
-  /// Narrows the enclosure in `known`, a result of decide() or first_time_below(), to at most `width`. If the
-  /// search gives up, the enclosure remains as it is.
+  /// Narrows the enclosure in `known` to at most `width`. `known` must be a result of decide() or
+  /// first_time_below(). If the search gives up, the enclosure remains as it is.
   FirstTime narrow(const FirstTime& known, double width);
 
  private:
@@ -57,8 +58,8 @@ class QuickSearch {
   /// do not cover replace the gap. Returns false if the bounds cover nothing, or leave too many gaps.
   bool look_into_first_gap();
   /// Requires that the distance is below `low` at the end of the first gap. Estimates when the distance falls
-  /// below `low`. Moves the end of the gap to just after that time if the distance is certainly below `low`
-  /// at the new end. Then chooses the next time to look at.
+  /// below `low`. If the distance is certainly below `low` just after that time, moves the end of the gap
+  /// there. Then chooses the next time to look at.
   void look_for_crossing();
   /// Estimates the time in the first gap at which the distance falls below `low`; 0 if the distance may be
   /// below `low` from the beginning of the step.

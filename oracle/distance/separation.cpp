@@ -9,8 +9,8 @@ namespace nearmiss::certified {
 
 namespace {
 
-/// The Bernstein coefficients on [0, end] of a cubic that is not negative at 0, each reduced by the bound of
-/// its rounding error.
+/// The Bernstein coefficients on [0, end] of a cubic that is not negative at 0. Each coefficient is reduced
+/// by a bound of its rounding error.
 std::array<double, 4> on(const Powers<double>& cubic, double end) {
   const std::array<double, 4>& p = cubic.c;
   const double p1 = p[1] * end;
@@ -28,8 +28,8 @@ bool is_not_negative(const std::array<double, 4>& b) {
   return b[0] >= 0 && b[1] >= 0 && b[2] >= 0 && b[3] >= 0;
 }
 
-/// An estimate of a root near 0, usually the first above 0, of a cubic that is positive at 0; nothing if not
-/// all roots are found to be real.
+/// An estimate of a root near 0 of a cubic that is positive at 0; usually this is the first root above 0. The
+/// result is nothing if some roots are found not to be real.
 std::optional<double> first_root(const Powers<double>& p) {
   const auto& [c0, c1, c2, c3] = p.c;
   constexpr double accuracy = 1e-4;
@@ -39,8 +39,8 @@ std::optional<double> first_root(const Powers<double>& p) {
   return 2 * c0 / (std::sqrt(discriminant) - c1);
 }
 
-/// A number in [0, most] up to which the cubic is certainly not negative, usually near the first root. The
-/// search is kept short for speed.
+/// A number in [0, most] such that the cubic is certainly not negative from 0 to this number. Usually the
+/// number is near the first root, but the search is kept short for speed.
 double not_negative_until(const Powers<double>& p, double most) {
   const auto holds_until = [&](double end) { return is_not_negative(on(p, end)); };
   if (!(p.c[0] > 0)) return 0;

@@ -11,24 +11,25 @@
 #include "oracle/distance/closest.hpp"
 
 // The primitives are the convex hulls of their vertices. So for any vector n(t), their distance is at least
-// the smallest n(t) · (x_i - x_j)(t) / |n(t)| over the vertices i of the first primitive and j of the second.
-// At a time t0, this bound is sharp if n(t0) has the direction between the closest points. Around t0, the
-// products n · (x_i - x_j) are polynomials in s = t - t0 for three kinds of n:
+// the smallest of the numbers n(t) · (x_i - x_j)(t) / |n(t)|, where i is a vertex of the first primitive and
+// j a vertex of the second. At a time t0, this bound is sharp if n(t0) has the direction between the closest
+// points. Around t0, the products n · (x_i - x_j) are polynomials in s = t - t0 for three kinds of n:
 //
 // - A constant n gives linear products.
-// - n = edge(t) × k with a constant k gives quadratic products. Both vertices of that edge have the same
-//   products, so the bound does not weaken as the edge turns.
+// - n = edge(t) × k with a constant k gives quadratic products. The products are the same for both vertices
+//   of this edge, so the bound does not weaken as the edge turns.
 // - n = N(t), the normal of the triangle or of both edges: all products are ±F, the coplanarity cubic.
 //
 // Errors of the coefficients. Each coefficient is a sum of products of components of two or three vectors.
 // Each product is rounded at most m times on its way into the coefficient, so its relative error is at most m
 // U (U = roundoff<Real>, the relative error of one operation). For three vectors of lengths a, b, c the
 // magnitudes of the products add up to at most 2/√3 a b c (Carlen, Lieb and Loss 2006, about permanents); for
-// two vectors, to at most a b. For a cross product, the sums of the magnitudes in each component form a
-// vector of length at most 2/√3 a b. A vector x = x_i - x_j has a length of at most R = reach(i, j), and its
-// velocity w one of at most 2 R. The table has a number for each coefficient, from s^0 on. The unit of the
-// lengths is the product of the R of all factors and of |n| or |k|; the unit of the errors is U times as
-// large. An error is m times the length and, except in the first row, times 2/√3:
+// two vectors, to at most a b. For a cross product, the magnitudes are added up in each component, and these
+// three sums form a vector of length at most 2/√3 a b. A vector x = x_i - x_j has a length of at most R =
+// reach(i, j), and its velocity w has a length of at most 2 R. The table has one number for each coefficient,
+// beginning with the coefficient of s^0. The unit of the lengths is the product of the R of all factors and
+// of |n| or |k|; the unit of the errors is U times as large. An error is m times the length and, except in
+// the first row, times 2/√3:
 //
 //               m                lengths        error                       taken
 //   n·x, n·w    7, 5             1, 2           7, 10                       8, 16
@@ -40,14 +41,14 @@
 // tests/oracle/separation_test.cpp determines m with a scalar that counts roundings in the templates below.
 //
 // The column "taken" exceeds the error to cover terms of second order in U and the rounding of the bounds
-// themselves. Rounding a coefficient to double adds 2^-53 of its magnitude, taken as 2^-52. In each of less
-// than 100 operations, underflow adds to a coefficient at most 2^-1018 times the length of k, which is at
-// most 2^100. To the length of n, it adds at most 2^-536. All this is far below `least_distance`, which is
-// added to each error.
+// themselves. Rounding a coefficient to double adds 2^-53 of its magnitude to the error; the code adds 2^-52.
+// In each of fewer than 100 operations, underflow adds at most 2^-1018 times the length of k to a
+// coefficient; the length of k is at most 2^100. Underflow adds at most 2^-536 to the length of n. All this
+// is far below `least_distance`, which is added to each error.
 
 namespace nearmiss::certified {
 
-/// Distances below this number, in the unit of VertexDifferences, cannot be told from 0.
+/// Distances below this number, in the unit of VertexDifferences, cannot be distinguished from 0.
 inline constexpr double least_distance = 0x1p-500;
 
 /// A polynomial in s of degree 3, and a bound of the error of each of its coefficients.
@@ -56,8 +57,9 @@ struct Product {
   std::array<double, 4> errors{};
 };
 
-/// A lower bound of the distance that one direction n(s) gives. At every s the distance is at least the
-/// smallest product divided by |n|, and |n| is at most length[0] + length[1] |s| + length[2] s².
+/// A lower bound of the distance that one direction n(s) gives. At every s, the distance is at least the
+/// smallest of the products divided by |n|. The length |n| is at most length[0] + length[1] |s| + length[2]
+/// s².
 struct Separation {
   boost::container::static_vector<Product, 4> products;
   std::array<double, 3> length{};
@@ -69,8 +71,8 @@ struct Separation {
   }
 };
 
-/// An upper bound of the exact length of a vector. v has the computed components, rounded to double; `error`
-/// bounds the error before this rounding.
+/// An upper bound of the exact length of a vector. v has the computed components of the vector, rounded to
+/// double, and `error` bounds the error of the vector before this rounding.
 inline double longest(const Vec<double>& v, double error) {
   return length(v) * (1 + 0x1p-48) + error + least_distance;
 }
@@ -90,7 +92,8 @@ Separation separate_by_constant(const VerticesAt<Real>& x, const Vec<double>& di
   return separation;
 }
 
-/// The lower bound with n = (x_to - x_from) × k, for the k that brings n as near to `direction` as possible.
+/// The lower bound with n = (x_to - x_from) × k. The constant k is chosen such that n is as near to
+/// `direction` as possible.
 template <class Real>
 Separation separate_by_edge(const VerticesAt<Real>& x, std::size_t from, std::size_t to,
                             const Vec<double>& direction) {

@@ -8,8 +8,8 @@ namespace nearmiss::certified {
 VertexDifferences::VertexDifferences(const Query& query)
     : kind_(query.kind), exponent_(0), pairs_{}, total_reach_(0) {
   double largest = 0;
-  // Sets all differences of coordinates, times a factor; returns whether they, and the sum of their
-  // magnitudes, are finite.
+  // Sets all differences of coordinates, times a factor. Returns whether these differences, and the sum of
+  // their magnitudes, are finite.
   const auto subtract = [&](double factor) {
     // Each component has its own sum and maximum, so that the operations do not wait for each other.
     Vec<double> most{};

@@ -12,8 +12,8 @@
 namespace nearmiss::certified {
 
 /// The vectors p, q and r (x_to - x_from), with the normal N = q × r and the coplanarity cubic F = p · N. For
-/// vertex and triangle, they are x0 - x1, x2 - x1 and x3 - x1; for edges, x0 - x2, x0 - x1 and x3 - x2. So p
-/// = a q + b r + c N gives the weights a and b of the feet of the common normal.
+/// vertex and triangle, they are x0 - x1, x2 - x1 and x3 - x1; for edges, x0 - x2, x0 - x1 and x3 - x2. So
+/// the feet of the common normal have the weights a and b that solve p = a q + b r + c N.
 struct NormalPairs {
   VertexPair p, q, r;
 };
@@ -46,10 +46,10 @@ template <class Use>
 /// vertices that a query of this kind does not have. The unit is 2^exponent, chosen so that the magnitude of
 /// the largest component is between 1 and 2 (all components are 0 if all vertices coincide).
 ///
-/// A difference of doubles is exactly a double word. Scaling it to the unit is also exact except for
-/// underflow of at most 2^-1073 of the unit, which is far below `least_distance`. If a difference, or the sum
-/// of all magnitudes, would overflow, the coordinates are first divided by 64; the error of this division is
-/// far below `least_distance`, too.
+/// A difference of doubles is exactly a double word. Scaling this difference to the unit is also exact,
+/// except that underflow may change it by at most 2^-1073 of the unit, which is far below `least_distance`.
+/// If a difference, or the sum of all magnitudes, would overflow, the coordinates are first divided by 64;
+/// the error of this division is far below `least_distance`, too.
 class VertexDifferences {
  public:
   explicit VertexDifferences(const Query& query);

@@ -8,8 +8,8 @@
 
 namespace nearmiss::certified {
 
-/// Numbers of MPFR, kept on the stack. MPFR rounds to nearest. The exponent range is far larger than the
-/// range of double, so nothing here overflows or underflows.
+/// Numbers of MPFR, kept on the stack. MPFR rounds to nearest. The exponents of MPFR have a far larger range
+/// than those of double, so nothing here overflows or underflows.
 using Wide = boost::multiprecision::number<
     boost::multiprecision::mpfr_float_backend<115, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;

@@ -14,7 +14,7 @@ namespace {
 
 /// Sorts times and removes duplicates.
 void sort_out(std::vector<Root>& times) {
-  // std::sort cannot be used, because comparing two times may refine both.
+  // std::sort cannot be used, because a comparison of two times may refine, and so change, both of them.
   std::vector<Root> sorted;
   for (Root& each : times) {
     const auto place =
@@ -24,7 +24,7 @@ void sort_out(std::vector<Root>& times) {
   times = std::move(sorted);
 }
 
-/// A number between two different times, of which `first` is the earlier.
+/// A number between two different times. `first` must be the earlier one.
 Number between(Root& first, Root& second) {
   while (true) {
     const Number middle = Number(0.5) * (first.hi() + second.lo());

@@ -1,4 +1,4 @@
-// When the distance of two primitives first falls to the separation, in exact arithmetic.
+// The time at which the distance of two primitives first falls to the separation, in exact arithmetic.
 #pragma once
 
 #include <optional>
@@ -12,9 +12,9 @@ namespace nearmiss::exact {
 /// falls below h.
 struct FirstApproach {
   Root time;
-  /// The time at which the distance first falls below h. Until then, the distance is at least h. Nothing if
-  /// the distance is never below h in [0, 1]. This time differs from `time` if the distance is exactly h
-  /// before it falls below h.
+  /// The time at which the distance first falls below h. Until this time, the distance is at least h. There
+  /// is no such time if the distance is never below h in [0, 1]. This time differs from `time` if the
+  /// distance is exactly h before it falls below h.
   std::optional<Root> below;
 };
 

@@ -44,8 +44,8 @@ std::optional<Meeting> meet_at(Predicates& predicates, Root& t) {
 /// neither 0 nor a root of one of the polynomials that are not identically zero. Then N_k is not zero and no
 /// polynomial changes its sign in a neighbourhood of t*, so there are collisions before t*, a contradiction.
 /// If N is identically zero, the polynomials are those of Predicates::segments(), for the same reason. If
-/// several of the polynomials are proportional to each other, such as the components of a vector of constant
-/// direction, one of them is enough.
+/// several of these polynomials are proportional to each other, as the components of a vector of constant
+/// direction are, one of them is enough.
 std::vector<Polynomial> deciding_polynomials(Predicates& predicates) {
   std::vector<Polynomial> deciding;
   const auto add = [&](const Polynomial& p) {

@@ -10,7 +10,7 @@ namespace nearmiss::exact {
 
 /// How the primitives meet at a time.
 struct Meeting {
-  /// The number of weights that vanish. For a vertex and a triangle, it is 0 if they meet inside the
+  /// The number of weights that vanish. For a vertex and a triangle, this number is 0 if they meet inside the
   /// triangle, 1 if they meet on an edge of the triangle, and 2 if they meet at a vertex of the triangle. For
   /// two edges, it is 0 if they meet inside both edges, 1 if they meet at an end of one edge, and 2 if they
   /// meet at an end of each edge. Primitives without a common normal always meet at a border, so the number
@@ -29,8 +29,8 @@ struct FirstContact {
 /// The first contact of the primitives; nothing if they never meet in [0, 1].
 std::optional<FirstContact> first_contact(Predicates& predicates);
 
-/// Whether the primitives meet in [0, 1] at all. `first` is the time of the first contact, if the search
-/// happens to find it.
+/// Whether the primitives meet at any time in [0, 1]. `first` is the time of the first contact, if the search
+/// happens to find this time.
 struct Collision {
   bool any = false;
   std::optional<Root> first = std::nullopt;

@@ -15,8 +15,8 @@ Unit::Unit(const Query& query) {
 }
 
 Number Unit::scaled(double x) const {
-  // A finite product above the smallest normal number is exact; a product equal to that number may have been
-  // rounded up.
+  // A finite product whose magnitude is above the smallest normal number is exact. A product equal to that
+  // number may have been rounded up.
   using Limits = std::numeric_limits<double>;
   if (const double product = x * factor_;
       std::abs(product) > Limits::min() && std::abs(product) <= Limits::max())

@@ -1,11 +1,11 @@
-// The distance at a time is at most a number b if and only if one of finitely many statements holds. Each is
-// about a pair of features: a vertex of each primitive, a vertex and an edge, the vertex and the triangle, or
-// two edges. A statement says that the closest points of the lines or planes through the two features lie in
-// the features and are within b of each other. The statement holds at t iff the polynomials `excess` and
-// `outside` are at most 0 at t, and `extents` are positive. (If the features are degenerate, an extent is 0.
-// The statements about other features, such as the ends of an edge of length 0, then cover their points.) If
-// the distance is at most b, the statement about the closest pair of features holds; if any statement holds,
-// two points are within b of each other.
+// The distance at a time is at most a number b if and only if one of finitely many statements holds. Each
+// statement is about a pair of features: a vertex of each primitive, a vertex and an edge, the vertex and the
+// triangle, or two edges. A statement says that the closest points of the lines or planes through the two
+// features lie in the features and are within b of each other. The statement holds at t iff the polynomials
+// `excess` and `outside` are at most 0 at t, and `extents` are positive. (If the features are degenerate, an
+// extent is 0, and the statement does not hold. Then statements about other features, such as the ends of an
+// edge of length 0, cover the same points.) If the distance is at most b, the statement about the closest
+// pair of features holds. If any statement holds, two points of the primitives are within b of each other.
 //
 // The sign of (distance - b) is 1, 0 or -1, and changes only at a time at which the distance is b. First
 // case: at t0, the sign changes to or from -1. On the side of t0 with the sign -1, the statement about a
@@ -15,7 +15,7 @@
 // is not identically 0. Second case: at t0, the sign changes between 0 and 1. On the side with the sign 0, a
 // closest pair is b apart for some time, so its excess is identically 0. On the side with the sign 1, the
 // pair's statement does not hold. Its extents have only isolated zeros, so one of its `outside` must be
-// positive on this side, and 0 at t0. In both cases all `outside` are at most 0 at t0.
+// positive on this side, and 0 at t0. In both cases, all of the pair's `outside` are at most 0 at t0.
 #include "oracle/exact/nearness.hpp"
 
 #include <algorithm>

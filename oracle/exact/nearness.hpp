@@ -12,8 +12,8 @@
 
 namespace nearmiss::exact {
 
-/// A statement about two features of the primitives, such as a vertex and an edge: the closest points of the
-/// lines or planes through the features lie in the features, and are within a number b of each other.
+/// A statement about two features of the primitives, such as a vertex and an edge. It says that the closest
+/// points of the lines or planes through the features lie in the features, and are at most b apart.
 struct FeatureNearness {
   /// The sorts of the two features. `interiors` means the vertex and the inside of the triangle in a
   /// vertex-triangle query, and the insides of both edges in an edge-edge query.
@@ -35,10 +35,11 @@ struct FeatureNearness {
   [[nodiscard]] bool is_extended_at(Root& t) const;
 };
 
-/// The polynomials of the statement about the `interiors`. At a time at which squared_N is positive, |F| /
-/// |N| is the distance of the vertex from the triangle's plane (vertex-triangle), or the distance between the
-/// lines of both edges (edge-edge). The closest points of vertex and plane, or of both lines, then lie in the
-/// features iff all `outside` are at most 0, and strictly inside the features iff all `outside` are negative.
+/// The polynomials that the statement about the `interiors` needs. At a time at which squared_N is positive,
+/// |F| / |N| is the distance of the vertex from the triangle's plane (vertex-triangle), or the distance
+/// between the lines of both edges (edge-edge). The closest points of vertex and plane, or of both lines,
+/// then lie in the features iff all `outside` are at most 0, and strictly inside the features iff all
+/// `outside` are negative.
 struct Interiors {
   Polynomial F;
   Polynomial squared_N;
@@ -82,7 +83,7 @@ class SmallestDistance {
 
  private:
   /// A pair of features. The squared distance of the lines or planes through the features is numerator /
-  /// denominator. At each of `times`, the closest points of these lines or planes lie in the features.
+  /// denominator. At each time in `times`, the closest points of these lines or planes lie in the features.
   struct Minima {
     Polynomial numerator, denominator;
     std::vector<Root> times;

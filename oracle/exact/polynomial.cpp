@@ -80,8 +80,8 @@ bool are_proportional(const Polynomial& p, const Polynomial& q) {
 
 namespace {
 
-/// The remainder of c p divided by q. The factor c is a power of the magnitude of q's leading coefficient;
-/// the exponent is 1 plus the difference of the degrees.
+/// The remainder of c p divided by q. The factor c is a power of |l|, where l is the leading coefficient of
+/// q. The exponent is 1 plus the difference of the degrees of p and q.
 Polynomial pseudo_remainder(const Polynomial& p, const Polynomial& q) {
   const int side = sign(q.leading());
   const Number lead = side > 0 ? q.leading() : -q.leading();
@@ -117,8 +117,9 @@ Division divide(const Polynomial& p, const Polynomial& q) {
 }
 
 std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q) {
-  // The polynomials after p and q are subresultants, up to their signs. Known common factors are divided out
-  // of their coefficients, which therefore stay as short as determinants of the coefficients of p and q.
+  // The polynomials after p and q are subresultants, up to their signs. Their coefficients have known common
+  // factors, which are divided out. So the coefficients stay as short as determinants of the coefficients of
+  // p and q.
   std::vector<Polynomial> sequence{p, q};
   Number g = 1;
   Number h = 1;

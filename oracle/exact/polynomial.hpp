@@ -43,7 +43,7 @@ class Polynomial {
   Numbers a_;
 };
 
-/// Whether one polynomial is a constant times the other; neither may be zero.
+/// Whether one polynomial is a constant times the other. Both must be different from the zero polynomial.
 bool are_proportional(const Polynomial& p, const Polynomial& q);
 
 /// The result of divide(p, q), which divides a positive multiple of p by q. The divisor q must not be zero.
@@ -52,9 +52,10 @@ struct Division {
 };
 Division divide(const Polynomial& p, const Polynomial& q);
 
-/// The remainder sequence p, q, ...: each further polynomial is the negative remainder of the two before it,
-/// times a positive factor. The last polynomial is the greatest common divisor of p and q. The degree of p
-/// must not be below that of q, and q must not be zero.
+/// The remainder sequence of p and q. It begins with p and q; each further polynomial is the negative
+/// remainder of a division of the two polynomials before it, times a positive factor. The last polynomial is
+/// the greatest common divisor of p and q. The degree of p must not be below that of q, and q must not be
+/// zero.
 std::vector<Polynomial> remainders(const Polynomial& p, const Polynomial& q);
 
 /// A greatest common divisor of two polynomials that are not both zero, up to a constant factor.
@@ -63,8 +64,7 @@ Polynomial greatest_common_divisor(const Polynomial& p, const Polynomial& q);
 /// The polynomial divided by the largest integer that divides all numerators of its coefficients.
 Polynomial primitive(const Polynomial& p);
 
-/// The polynomial p in which each factor that occurs several times is replaced by one such factor. The degree
-/// of p must be at least 1.
+/// The polynomial p, in which each multiple factor is kept only once. The degree of p must be at least 1.
 Polynomial square_free(const Polynomial& p);
 
 /// The number of sign changes from one number to the next; zeros are skipped.

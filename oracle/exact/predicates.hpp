@@ -11,9 +11,9 @@
 
 namespace nearmiss::exact {
 
-/// Polynomials that tell whether a point x lies on the closed segment from a to b. It does iff every
-/// component of `cross` = (x - a) × (b - a) is zero and `dot` = (x - a) · (x - b) is not positive. This also
-/// holds if a = b.
+/// Polynomials that show whether a point x lies on the closed segment from a to b. The point lies on the
+/// segment iff every component of `cross` = (x - a) × (b - a) is zero and `dot` = (x - a) · (x - b) is not
+/// positive. This condition is also right if a = b.
 struct OnSegment {
   PolynomialVector cross;
   Polynomial dot;
@@ -30,9 +30,9 @@ struct OnSegment {
 ///    p = w2 q + w3 r for the barycentric weights w2 and w3. Two edges have the weights of x1 and x0 on the
 ///    first edge, and of x3 and x2 on the second. The two weights of each edge add up to N, and p = α q - β r
 ///    for the barycentric weights α of x1 and β of x3.
-///  - If N = 0, the triangle is a segment or a point, and so it is the union of its edges: it contains x0 iff
-///    one of its edges does. In an edge-edge query, the edges are then parallel or points, and meet iff an
-///    end point of one lies on the other.
+///  - If N = 0, the triangle is a segment or a point, and so it is the union of its edges. It contains x0 iff
+///    one of its edges contains x0. In an edge-edge query with N = 0, the edges are parallel or points, and
+///    they meet iff an end point of one edge lies on the other edge.
 class Predicates {
  public:
   explicit Predicates(const Query& query);

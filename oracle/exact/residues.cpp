@@ -16,7 +16,7 @@ namespace {
 constexpr unsigned bits = 31;
 constexpr std::uint64_t prime = (std::uint64_t{1} << bits) - 1;
 
-/// A number modulo the prime. A power of two has an inverse, 2^-k = 2^(31 - k), since 2^31 = 1 modulo the
+/// A number modulo the prime. A denominator of 2^k has the inverse 2^(31 - k), because 2^31 = 1 modulo the
 /// prime.
 std::uint64_t residue(const Number& x) {
   const CGAL::Gmpq fraction(x);

@@ -23,14 +23,14 @@ std::ptrdiff_t exponent_of_denominator(const CGAL::Gmpq& x) {
   return static_cast<std::ptrdiff_t>(x.denominator().bit_size()) - 1;
 }
 
-/// The exponent of a power of two that exceeds |x| by a factor of at most 2, for x not zero.
+/// The exponent of a power of two that is above |x|, but at most 2 |x|. x must not be zero.
 std::ptrdiff_t exponent_above(const Number& x) {
   const CGAL::Gmpq fraction(x);
   return static_cast<std::ptrdiff_t>(fraction.numerator().bit_size()) - exponent_of_denominator(fraction);
 }
 
-/// The numbers in double, scaled by a power of two if the largest is very large or small; not all may be
-/// zero.
+/// The numbers in double, scaled by a power of two if the largest number is very large or small. At least one
+/// number must not be zero.
 std::vector<double> in_proportion(const Numbers& numbers) {
   std::vector<double> result;
   result.reserve(numbers.size());
@@ -49,8 +49,8 @@ std::vector<double> in_proportion(const Numbers& numbers) {
   return result;
 }
 
-/// |x / y| rounded down; y must not be 0. CGAL's conversion of an integer to a Number is right for positive
-/// integers only.
+/// |x / y| rounded down; y must not be 0. CGAL converts only positive integers to the right Number, so 0 is
+/// treated separately.
 Number integer_quotient(const Number& x, const Number& y) {
   const CGAL::Gmpq a(x);
   const CGAL::Gmpq b(y);
@@ -60,8 +60,8 @@ Number integer_quotient(const Number& x, const Number& y) {
   return CGAL::is_zero(quotient) ? Number(0) : Number(quotient);
 }
 
-// The functions below represent a polynomial in double as OnInterval does: by the coefficients c_i of s^i (1
-// - s)^(n - i), which are Bernstein coefficients times binomial coefficients.
+// The functions below represent a polynomial in double as OnInterval does: by the coefficients c_i of the
+// terms s^i (1 - s)^(n - i). They are Bernstein coefficients times binomial coefficients.
 
 std::vector<double> derivative(const std::vector<double>& c) {
   const std::size_t n = c.size() - 1;
@@ -97,7 +97,8 @@ void shift(Numbers& c, const Multiply& times_shift) {
     for (std::size_t i = 1; i <= last; ++i) c[i] = c[i] + times_shift(c[i - 1]);
 }
 
-/// Converts the coefficients of the powers of t, the leading one first, to those of OnInterval.
+/// Converts the coefficients of a polynomial in powers of t, the leading one first, to the coefficients that
+/// OnInterval stores.
 Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
   // First computes the coefficients of the powers of s. Here s is a fraction of the interval, counted from lo
   // or hi, whichever has fewer bits.
@@ -121,7 +122,7 @@ Numbers on_interval(Numbers&& c, const Number& lo, const Number& hi) {
   return std::move(c);
 }
 
-/// Rounds x toward 0, to a multiple of 2^exponent; returns whether this has changed x.
+/// Rounds x toward 0, to a multiple of 2^exponent. Returns whether the rounding has changed x.
 bool round_off(Number& x, std::ptrdiff_t exponent) {
   const CGAL::Gmpq fraction(x);
   const std::ptrdiff_t denominator = exponent_of_denominator(fraction);
@@ -144,7 +145,7 @@ OnInterval OnInterval::part(const Number& from, const Number& to) const {
   shift(powers, [](const Number& each) { return -each; });
   std::reverse(powers.begin(), powers.end());
   OnInterval part(on_interval(std::move(powers), from, to));
-  // The Bernstein coefficients of a part are averages of those of the whole, with weights >= 0, so errors
+  // Each Bernstein coefficient of the part is an average of those of the whole, with weights >= 0. So errors
   // do not grow.
   part.error_ = error_;
   return part;
@@ -202,7 +203,7 @@ double OnInterval::guess_extremum() const {
   const std::vector<double> slope = derivative(in_proportion(c_));
   const std::vector<double> bend = derivative(slope);
   double s = 0.5;
-  // Newton's method. It converges only linearly if two roots are close to each other.
+  // This is Newton's method, which converges only linearly if two roots are close to each other.
   for (int i = 0; i < 60; ++i) {
     const double value = value_at(slope, s);
     if (value == 0) break;
@@ -218,7 +219,7 @@ double OnInterval::guess_extremum() const {
 std::optional<Number> OnInterval::guess_cluster(unsigned bits) const {
   const int n = static_cast<int>(c_.size()) - 1;
   // A step of Schröder's method, which is Newton's for f / f', from the lower end. f0, f1 and f2 are the
-  // value and two derivatives at this end.
+  // value of f and its first two derivatives at this end.
   const Number& f0 = c_[0];
   const Number f1 = c_[1] - Number(n) * f0;
   const Number f2 = Number(2) * (c_[2] - Number(n - 1) * c_[1]) + Number(n * (n - 1)) * f0;
@@ -272,8 +273,8 @@ void Root::cut(const Number& at) {
     (side == sign_at_lo_ ? lo_ : hi_) = at;
 }
 
-/// Replaces the polynomial by p, and the interval by (lo, hi). The only root of p in (lo, hi) must be this
-/// root, a simple one.
+/// Replaces the polynomial by p, and the interval by (lo, hi). This root must be the only root of p in (lo,
+/// hi), and a simple root of p.
 void Root::take(std::shared_ptr<const Polynomial> p, Number lo, Number hi) {
   p_ = std::move(p);
   lo_ = std::move(lo);
@@ -297,8 +298,8 @@ void Root::refine() {
   }
   Number guess = Number(s);
   Number unit = Number(around);
-  // In a small interval, the polynomial p is nearly linear. So a step along the chord between the ends of the
-  // interval gives many more digits of the root.
+  // In a small interval, the polynomial is nearly linear. So a step along the chord between its values at the
+  // ends of the interval gives many more digits of the root.
   if (chord_steps_ > 1) {
     for (int i = 1; i < chord_steps_; ++i) unit = unit * Number(around);
     const Number value = on(guess);
@@ -323,9 +324,9 @@ void Root::refine() {
 namespace {
 
 /// Requires that p has at most one root between lo and hi, that this root is simple, and that p and q are not
-/// both zero at lo or at hi. If this root of p is also a root of q, returns a polynomial that has the root: p
-/// or, if its degree is lower, the greatest common divisor of p and q. Otherwise returns nothing. The divisor
-/// has the root iff its signs at lo and hi differ.
+/// both zero at lo or at hi. If this root of p is also a root of q, returns a polynomial that has the root:
+/// the greatest common divisor of p and q if its degree is lower than that of p, else p. Otherwise returns
+/// nothing. The divisor has the root iff its signs at lo and hi differ.
 std::shared_ptr<const Polynomial> with_common_root(const Polynomial& p, const Polynomial& q, const Number& lo,
                                                    const Number& hi) {
   // Up to this degree, the greatest common divisor is found faster than residues are tested.

@@ -14,7 +14,8 @@
 
 namespace nearmiss::exact {
 
-/// The relative accuracy with which double locates a well-conditioned root or extremum in an interval.
+/// The accuracy with which double arithmetic locates a well-conditioned root or extremum in an interval,
+/// relative to the length of the interval.
 inline constexpr double around = 0x1p-44;
 
 /// lo + part (hi - lo).
@@ -24,8 +25,8 @@ Number between(const Number& lo, const Number& hi, double part);
 Number power_of_half(unsigned bits);
 
 /// A polynomial on an interval, given by its Bernstein coefficients times binomial coefficients. The number
-/// of roots in the open interval is the number of sign changes of these products, or smaller by an even
-/// number.
+/// of roots in the open interval is the number of sign changes of these products, or less than that by an
+/// even number.
 class OnInterval {
  public:
   /// p must not be the zero polynomial.
@@ -33,10 +34,11 @@ class OnInterval {
 
   /// The same polynomial on the part of the interval between two fractions.
   [[nodiscard]] OnInterval part(const Number& from, const Number& to) const;
-  /// Rounds very long coefficients. The parts of this polynomial inherit the errors of rounding.
+  /// Rounds very long coefficients. Each later part() of this polynomial inherits the errors of this
+  /// rounding.
   void round();
-  /// Whether the rounding has certainly left the sign of every coefficient as it was, and changed the size of
-  /// every coefficient by a factor of less than 2.
+  /// Whether every coefficient certainly has the same sign as before the rounding, and the same size up to a
+  /// factor of less than 2.
   [[nodiscard]] bool is_certain() const;
 
   /// The n + 1 Bernstein coefficients, each times its binomial coefficient, where n is the degree.
@@ -50,21 +52,21 @@ class OnInterval {
   /// The value of the polynomial at a fraction of the interval.
   [[nodiscard]] Number operator()(const Number& fraction) const;
 
-  /// Guesses where the only root in the interval is, from the sign at the lower end. The result is a fraction
-  /// of the interval.
+  /// Guesses where the only root in the interval is, given the sign of the polynomial at the lower end. The
+  /// result is a fraction of the interval.
   [[nodiscard]] double guess_root(int sign_at_lo) const;
   /// Guesses where an extremum of the polynomial may be. The result is a fraction of the interval.
   [[nodiscard]] double guess_extremum() const;
   /// Guesses where a cluster of roots may be. The result is a fraction of the interval, rounded down to a
-  /// multiple of 2^-bits, or nothing if the guess is not above the lower end, or the rounded guess is above
-  /// the upper end.
+  /// multiple of 2^-bits. It is nothing if the guess is not above the lower end, or the rounded guess is
+  /// above the upper end.
   [[nodiscard]] std::optional<Number> guess_cluster(unsigned bits) const;
 
   /// The result of roots_near_end() if all roots are near the same end of the interval: three fractions of
   /// the interval. All roots lie strictly between `lower` and `upper`. The distance of `middle` from that end
-  /// is about the geometric mean of the distances of `lower` and `upper`. All three are 0 if the coefficients
-  /// show that there is no root. roots_near_end() requires that the coefficients change their sign, and that
-  /// no root is at an end.
+  /// is about the geometric mean of the distances of `lower` and `upper` from it. All three are 0 if the
+  /// coefficients show that there is no root. roots_near_end() requires that the coefficients change their
+  /// sign, and that no root is at an end.
   struct NearEnd {
     Number lower, middle, upper;
   };
@@ -106,8 +108,8 @@ class Root {
 
  private:
   [[nodiscard]] bool is_number() const { return !p_; }
-  /// Whether this and `other` are the same root. If they are the same root, gives both objects the same
-  /// polynomial and interval.
+  /// Whether this object and `other` are the same root. If they are, gives both objects the same polynomial
+  /// and interval.
   bool is_same(Root& other);
   void cut(const Number& at);
   void take(std::shared_ptr<const Polynomial> p, Number lo, Number hi);

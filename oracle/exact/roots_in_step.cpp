@@ -12,8 +12,8 @@ namespace nearmiss::exact {
 namespace {
 
 /// The result of isolate() for a polynomial that is not zero at 0 or 1. `roots` has its roots in (0, 1), in
-/// ascending order. But if a cut hit a root exactly, `number` is this root, and `roots` is empty. `found` is
-/// false if the search gave up.
+/// ascending order. But if a cut has hit a root exactly, `number` is this root, and `roots` is empty. `found`
+/// is false if the search has given up.
 struct Isolated {
   std::vector<Root> roots;
   std::optional<Number> number;
@@ -59,8 +59,8 @@ struct Part {
   }
 
   /// Looks for clusters of roots. Shrinks the part to the neighbourhood of a cluster if the coefficients on
-  /// the neighbourhood have as many changes of sign as those on the part: the rest of the part then has no
-  /// root. Returns cuts that separate clusters, if it finds any.
+  /// this neighbourhood have as many changes of sign as the coefficients on the part, because the rest of the
+  /// part then has no root. Returns cuts that separate clusters, if it finds any.
   std::optional<Cuts> clusters(const Polynomial& p) {
     constexpr unsigned least_bits = 11;
     is_in_cluster = true;
@@ -68,7 +68,8 @@ struct Part {
       if (const auto near_end = on.roots_near_end())
         return Cuts{near_end->lower, near_end->upper, {near_end->middle}};
       // Each round shrinks the part around a multiple of 2^-bits, and doubles `bits`. Rounds succeed until
-      // this multiple is no farther from the roots of the cluster than these roots are from each other.
+      // the distance of this multiple from the roots of the cluster is no larger than the distances between
+      // these roots.
       const auto cluster = on.guess_cluster(bits);
       if (!cluster) break;
       const Number unit = power_of_half(bits);
@@ -90,8 +91,8 @@ struct Part {
 
 /// Cuts [0, 1] until every part has no root or one simple root. Cuts near an extremum, which separate two
 /// close roots, alternate with cuts in the middle. `is_simple` says that the polynomial has no multiple
-/// roots. If it is false, the search gives up after a few cuts; if it is true, the search then looks for
-/// clusters of roots between the cuts.
+/// roots. If `is_simple` is false, the search gives up after a few cuts. If it is true, the search looks for
+/// clusters of roots after a few cuts.
 Isolated isolate(const std::shared_ptr<const Polynomial>& p, bool is_simple) {
   constexpr int few = 4;
   Isolated isolated;

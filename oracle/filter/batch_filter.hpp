@@ -1,4 +1,5 @@
-// The certified filter for many queries of one kind at once: the arithmetic of step_part.hpp in lanes.
+// The certified filter for many queries of one kind at once. It does the arithmetic of step_part.hpp in
+// lanes.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +21,10 @@
 namespace nearmiss::certified {
 
 /// Processes the queries in three stages: tests by boxes and moving planes; a test of the sign of F, the
-/// coplanarity cubic; a search in parts of the step. Each stage takes the queries that are still undecided,
-/// side by side in n lanes. The last stage is a simpler version of ContactSearch, and leaves difficult
-/// queries undecided. The results in a lane depend only on the query in this lane, so the number n of lanes
-/// changes no answer.
+/// coplanarity cubic; a search in parts of the step. Each stage processes the queries that are still
+/// undecided, n of them side by side in n lanes. The last stage is a simpler version of ContactSearch, and
+/// leaves difficult queries undecided. The results in a lane depend only on the query in this lane, so the
+/// number n of lanes changes no answer.
 template <int n, Kind kind>
 class BatchFilter {
  public:
@@ -67,7 +68,7 @@ class BatchFilter {
     }
     void add(std::size_t row) { add_if(true, row); }
     /// Adds an index to the list if the index is wanted. The code has no branch, because the processor could
-    /// not predict it.
+    /// not predict the branch.
     void add_if(bool wanted, std::size_t row) {
       rows_[size_] = static_cast<std::uint8_t>(row);
       size_ += wanted ? 1 : 0;
@@ -113,7 +114,7 @@ class BatchFilter {
     __builtin_prefetch(x + 23);
   }
 
-  /// The lanes in which the swept boxes do not meet; box.hpp says why this test is exact.
+  /// The lanes in which the boxes that the primitives sweep do not meet. box.hpp says why this test is exact.
   static Mask boxes_apart(const PointLanes& x) {
     constexpr std::size_t middle = split(kind);
     Mask apart{};
@@ -147,8 +148,8 @@ class BatchFilter {
         for (std::size_t k = 0; k < 4; ++k) sums[k] += x.x[c + k];
       const Mask finite = abs((sums[0] + sums[1]) + (sums[2] + sums[3])) < HUGE_VAL;
       // The stages for the codes 0 to 4. Code 0: a coordinate is not finite. Code 1: neither the test of the
-      // planes nor the test of the boxes separates the primitives. Code 2: only the test of the planes does.
-      // Code 3: only the test of the boxes does. Code 4: both tests do.
+      // planes nor the test of the boxes separates the primitives. Code 2: only the test of the planes
+      // separates them. Code 3: only the test of the boxes separates them. Code 4: both tests separate them.
       constexpr std::array stage_of{FilterStage::undecided, FilterStage::undecided, FilterStage::planes,
                                     FilterStage::boxes, FilterStage::boxes};
       constexpr int unsure = 1;
@@ -344,8 +345,8 @@ class BatchFilter {
     });
   }
 
-  /// Finds the neighbouring doubles around the first contact of each query that has no unclear part before
-  /// this contact.
+  /// For each query with a contact and no unclear part before it, finds the neighbouring doubles around the
+  /// first contact.
   void find_neighbours(const Rows& rows, KnownTime* times) const {
     const Rows places(rows.size(),
                       [&](std::size_t place) { return first_lo_[place] < unclear_from_[place]; });
@@ -371,8 +372,8 @@ class BatchFilter {
   QueryRows queries_, ahead_;
   double caution_;  ///< all error bounds are multiplied by this factor, which is at least 1
   bool asks_first_ = false;
-  // These arrays are indexed like the list of searched queries; a pack of lanes may reach beyond the end of
-  // this list.
+  // These arrays are indexed like the list of searched queries. They are longer than this list can be,
+  // because the last n lanes may reach beyond its end.
   std::array<OfBatch, 5> F_;                 ///< Bernstein coefficients and error of F
   std::array<OfBatch, 4 * weight_count> W_;  ///< coefficients and error of each weight
   PendingParts precise_;                     ///< parts for look_precisely()

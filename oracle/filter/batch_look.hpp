@@ -71,9 +71,11 @@ WeightSigns<n> weight_signs(const std::array<Bernstein<Lanes<n>, 3>, count>& wei
 }
 
 /// The result of look() for a part [lo, hi] of the step, in each lane. The bits of `outcome` have these
-/// meanings. `before`: [lo, left] must be examined next; `middle`: [left, right]; `behind`: [right, hi].
-/// `bracket`: there is a collision in [left, right]. `precise`: F has a root in [left, right], but double
-/// precision is not enough to find the signs of the weights there.
+/// meanings. `collision`: there is a collision in [lo, hi]. `unknown`: this part remains undecided. `before`:
+/// the part [lo, left] must be examined next. `middle`: the part [left, right] must be examined next.
+/// `behind`: the part [right, hi] must be examined next. `bracket`: there is a collision in [left, right].
+/// `precise`: F has a root in [left, right], but double precision is not enough to find the signs of the
+/// weights there.
 template <int n>
 struct Look {
   enum : std::int64_t {
@@ -108,7 +110,7 @@ struct EndSigns {
 };
 
 /// An estimate t of the root of F, the coplanarity cubic, in [lo, hi], and a bracket [before, behind] around
-/// this root, whose ends are at most h from t.
+/// this root. Both ends of the bracket are at most h away from t.
 template <int n>
 struct RootBracket {
   Lanes<n> t, h, before, behind;
@@ -138,8 +140,9 @@ struct RootBracket {
   }
 };
 
-/// The time at which a part is divided: an estimated extremum of F inside [lo, hi] if one is found and F does
-/// not certainly change its sign from lo to hi, else the middle.
+/// The time at which a part is divided. If F does not certainly change its sign from lo to hi, and an
+/// extremum of F is found inside [lo, hi], the part is divided at the estimate of this extremum. Otherwise
+/// the part is divided in the middle.
 template <int n>
 Lanes<n> division(const std::array<Lanes<n>, 4>& f, const EndSigns<n>& ends, const Lanes<n>& lo,
                   const Lanes<n>& hi) {
@@ -163,8 +166,8 @@ typename Lanes<n>::Mask opposed_at_unknown_ends(const std::array<Bernstein<Lanes
 }
 
 /// Examines F and the weights of n queries, each on a part [lo, hi] of its step. If the first contact is
-/// asked for, a part with a collision but without a bracket must be divided, and the part before a bracket
-/// must be examined next.
+/// asked for, a part with a collision but without a bracket is divided. If there is a bracket, the part
+/// before it must be examined next.
 template <int n, std::size_t count>
 Look<n> look(const Bernstein<Lanes<n>, 4>& F, const std::array<Bernstein<Lanes<n>, 3>, count>& weights,
              const Lanes<n>& lo, const Lanes<n>& hi, bool asks_first) {

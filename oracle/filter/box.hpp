@@ -1,4 +1,4 @@
-// The exact test of axis-aligned boxes, the first test of a query.
+// The exact test of axis-aligned boxes. It is the first test of every query.
 #pragma once
 
 #include <algorithm>

@@ -60,8 +60,8 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
 }
 
 /// The neighbouring doubles around the first contact, or the double at which the contact happens; nothing if
-/// neither can be shown. `time` contains the first contact, if there is one. All calls are inlined, so that
-/// the compiler drops computations whose results are not used.
+/// neither can be shown. The argument `time` encloses the first contact, if there is one. All calls are
+/// inlined, so that the compiler drops computations whose results are not used.
 [[gnu::flatten]] std::optional<KnownTime> between_neighbours(const Query& query,
                                                              const Bernstein<double, 4>& F,
                                                              const Enclosure& time) {
@@ -89,9 +89,9 @@ Found search(const Query& query, const Bernstein<Real, 4>& F, const StepPart<Rea
   Found found = search(query, F, whole, time == nullptr ? Asked::whether : Asked::when);
   if (time != nullptr && found.time) {
     if (const auto neighbours = between_neighbours(query, F, found.time->time)) *time = *neighbours;
-    // There may be an unclear part before the contact, and a search that is not asked for a time ends at such
-    // a part. The stage must not depend on whether a time is asked for, so the stage is taken from a second
-    // search, which is not asked for a time.
+    // There may be an unclear part before the contact. A search that is not asked for a time ends at such a
+    // part, but this search has gone on. The stage must not depend on whether a time is asked for, so it is
+    // taken from a second search, which is not asked for a time.
     if (!found.time->is_between) found = search(query, F, whole);
   }
   if (found.stage != FilterStage::undecided) return found.stage;

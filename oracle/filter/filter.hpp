@@ -1,5 +1,5 @@
-// The certified filter that precedes exact arithmetic: floating-point arithmetic that never gives a wrong
-// answer.
+// The certified filter: floating-point arithmetic that never gives a wrong answer. Exact arithmetic decides
+// the queries that the filter leaves undecided.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ namespace nearmiss {
 enum class FilterStage : std::uint8_t {
   boxes,        ///< no: the swept boxes do not meet
   planes,       ///< no: a moving plane (planes.hpp) separates the primitives, by more than h
-  one_sign,     ///< no: F keeps one sign
-  weights,      ///< no: two weights have opposite signs at every time at which F may vanish
+  one_sign,     ///< no: F, the coplanarity cubic, keeps one sign
+  weights,      ///< no: two weights (step_part.hpp) have opposite signs whenever F may vanish
   sign_change,  ///< yes: F changes its sign while all weights have one sign
   at_an_end,    ///< yes: F or a weight is exactly 0 at the contact, as at t = 0 or 1 (sure_contact.hpp)
   apart,        ///< no: the distance is always above the separation h > 0
@@ -48,11 +48,11 @@ inline constexpr double rough_time = 0x1p-30;
 
 /// An interval that contains the time of the first contact, if there is one; nothing if there certainly is
 /// none. Uses the arithmetic of filter(). Most intervals are at most `width` wide, or as narrow as doubles
-/// allow. The box test is not included.
+/// allow. This function does not include the box test.
 std::optional<KnownTime> time_of_contact(const Query& query, double width = rough_time);
 
-/// Decides many queries of any kinds; the box test is included. The instruction set does not affect the
-/// answers.
+/// Decides many queries of any kinds. This function includes the box test. The instruction set does not
+/// affect the answers.
 void filter(const QueryRows& queries, std::span<FilterStage> stages,
             Instructions instructions = chosen_instructions());
 inline void filter(std::span<const Query> queries, std::span<FilterStage> stages,
@@ -61,14 +61,14 @@ inline void filter(std::span<const Query> queries, std::span<FilterStage> stages
 }
 
 /// Decides as filter() does. For a collision, `time` is set to the neighbouring doubles between which the
-/// first contact lies, or to the time of the contact, or to [0, 1] if neither is known. If there is no
-/// collision, `time` means nothing.
+/// first contact lies, or to the exact time of this contact. If neither is known, `time` is set to [0, 1]. If
+/// there is no collision, `time` means nothing.
 FilterStage filter_for_time(const Query& query, KnownTime& time);
 void filter_for_times(const QueryRows& queries, std::span<FilterStage> stages, std::span<KnownTime> times,
                       Instructions instructions = chosen_instructions());
 
-/// Decides with every error bound multiplied by `caution` >= 1, and in double arithmetic only. If a query is
-/// decided in this way, the values that decide it exceed their error bounds by this factor.
+/// Decides in double arithmetic only, with every error bound multiplied by `caution` >= 1. If this decides a
+/// query, the values that decide it exceed their true error bounds by this factor.
 void filter_with_caution(std::span<const Query> queries, double caution, std::span<FilterStage> stages);
 
 }  // namespace nearmiss

@@ -1,5 +1,5 @@
-// The two neighbouring doubles between which the time of a contact lies, for one query or for several in
-// lanes.
+// The two neighbouring doubles between which the time of a contact lies, for one query or for several queries
+// in lanes.
 #pragma once
 
 #include <algorithm>
@@ -29,12 +29,13 @@ struct Neighbours {
 /// given over the whole `step`. `hold` is true only if F is certainly monotone in [lo, hi], so that F has no
 /// other root there.
 ///
-/// Newton's method in double gives a time t. One more step from t, with F in double words, gives both
-/// doubles. The mean value theorem gives the sign of F at each double d: F(d) = F(t) + F'(s) (d - t) for an s
-/// between t and d. Let v be the computed F(t), with an error of at most E, and S the computed slope, which
-/// differs from F'(s) by at most R < |S|. With g >= |d - t|, the roundings of v to its upper half, of d - t,
-/// of S (d - t), and of the sum add 2 U |v| + 3 U |S| g, and the roundings of R g add another 4 U |S| g.
-/// Underflow adds at most 5 H, with H = `smallest` / 2, and E is at least 512 H.
+/// Newton's method in double gives a time t. One more step from t, with F(t) computed in double words, gives
+/// the two doubles. The mean value theorem gives the sign of F at each double d: F(d) = F(t) + F'(s) (d - t)
+/// for an s between t and d. Let v be the computed F(t), with an error of at most E, and S the computed
+/// slope, which differs from F'(s) by at most R < |S|. With U = roundoff<double> and g >= |d - t|, the
+/// roundings of v to its upper half, of d - t, of S (d - t), and of the sum add 2 U |v| + 3 U |S| g, and the
+/// roundings of R g add another 4 U |S| g. Underflow adds at most 5 H, with H = `smallest` / 2, and E is at
+/// least 512 H.
 template <class Real>
 Neighbours<Real> neighbours_of_root(const StepPart<DoubleWordOf<Real>>& step, const Bernstein<Real, 4>& F,
                                     const Real& lo, const Real& hi) {

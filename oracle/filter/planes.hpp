@@ -30,8 +30,8 @@ struct HeightRange {
 /// hi)` compares the lowest vertex of one primitive with the highest vertex of the other. If the result is
 /// true, all differences of heights between the primitives have one sign at both ends and, because these
 /// differences are linear, at every time. Their convex combinations have this sign, too, so the primitives
-/// never meet. If `is_above` asks for a difference of more than g, the heights of the primitives always
-/// differ by more than g.
+/// never meet. If `is_above` requires a difference of more than g, the heights of the primitives differ by
+/// more than g at every time.
 template <Kind kind, class Height, class IsAbove>
 [[gnu::always_inline]] inline auto is_separated(const Height& height, const IsAbove& is_above) {
   using Real = decltype(height(0, 0));
@@ -73,8 +73,9 @@ template <Kind kind, class Points, class Above = IsAbove>
 
 /// Whether a plane perpendicular to a diagonal x ± y, y ± z or z ± x separates the primitives throughout the
 /// step. Heights along a diagonal are sums or differences of two coordinates, rounded once. Rounding is
-/// monotone, so fl(a) > fl(b) implies a > b for numbers of every size. An overflowing sum is infinite; it is
-/// above every finite sum, as the exact sum is, and not above another infinite sum of its sign.
+/// monotone, so fl(a) > fl(b) implies a > b for numbers of every size. A sum that overflows is infinite. It
+/// compares with every finite sum as the exact sum does, and no infinite sum is above another infinite sum of
+/// the same sign.
 template <Kind kind, class Points, class Above = IsAbove>
 [[gnu::always_inline]] inline auto separated_across_diagonals(const Points& x, const Above& is_above = {}) {
   const auto both = [&](std::size_t k, std::size_t l) {
@@ -108,9 +109,9 @@ inline constexpr double height_rounding =
 /// be the computed heights. D = fl(A - B) is at most (A - B) (1 + u), so A - B >= D - 1.1 u D, and D <= 1.1
 /// (|A| + |B|). The exact heights differ by at least A - B - u (|A| + |B|) >= D - 2.3 u (|A| + |B|). The
 /// right side below computes √2 h + 4 u (|A| + |B|). Roundings may make the right side smaller by a relative
-/// error of 3 u, which the margins of its constants cover. Underflow in its products may make it smaller by 2
-/// `smallest`, which is added. If a sum or D is infinite, the right side is infinite or NaN, and the answer
-/// is false.
+/// error of 3 u, which the margins of its constants cover. Underflow in its products may make the right side
+/// smaller by 2 `smallest`, so this number is added. If a sum or D is infinite, the right side is infinite or
+/// NaN, and the answer is false.
 struct IsFartherAboveDiagonally {
   double h;
   bool operator()(double lo, double hi) const {

@@ -1,5 +1,5 @@
-// The search for the zeros of F, the coplanarity cubic, in a part of the step, and for the signs of the
-// weights near these zeros, which tell whether the primitives meet there.
+// Searches a part of the step for the zeros of F, the coplanarity cubic, and finds the signs of the weights
+// near these zeros. The signs of the weights show whether the primitives meet there.
 #pragma once
 
 #include <algorithm>
@@ -15,19 +15,21 @@
 
 namespace nearmiss::certified {
 
-/// When zoom() searches an interval as a part of its own, each end of the interval moves outward by this
+/// When zoom() searches an interval as a part of its own, it moves each end of the interval outward by this
 /// length.
 inline constexpr double zoom_rounding = 0x1.8p-52;
 
-/// The question that a search must answer: only whether there is a contact, or also when the first contact
-/// is. The time of the first contact is asked for either roughly or between neighbouring doubles.
+/// The question that a search must answer. It asks only whether there is a contact, or also when the first
+/// contact is. The answer to the second question may be rough, or must be two neighbouring doubles.
 enum class Asked : std::uint8_t { whether, when, when_precisely };
 
 /// Searches a part of the step for a contact, from the beginning of the part to its end. The search drops an
 /// interval if F has one sign or two weights have opposite signs in the interval, and divides other
 /// intervals. If errors hide these signs in a small interval, the interval is searched as a part of its own
 /// (zoom()), in which the vectors and hence their errors are smaller. The search ends when all intervals are
-/// dropped, when one contains a collision, or, unless a time is asked for, when one remains unclear.
+/// dropped, or when it has found a collision and no time is asked for. If a time is asked for, the search
+/// goes on before the collision, where F may have an earlier root. If no time is asked for, the search also
+/// ends when an interval remains unclear.
 template <class Real>
 class ContactSearch {
  public:
@@ -50,7 +52,8 @@ class ContactSearch {
 
   /// An interval of the step. If the search was asked for a time, the interval contains the first contact in
   /// this part, and the result is nothing if there certainly is no contact. If the search was asked only
-  /// whether there is a contact, and run() returned `undecided`, the result is the interval that is unclear.
+  /// whether there is a contact, and run() returned `undecided`, the result is the interval that remains
+  /// unclear.
   [[nodiscard]] std::optional<Enclosure> first() const {
     if (!found_ || !unclear_) return found_ ? found_ : unclear_;
     return Enclosure{std::min(found_->lo, unclear_->lo), found_->hi};
@@ -110,8 +113,8 @@ class ContactSearch {
   }
 
   /// An estimate of the time at which F, given by its Bernstein coefficients, has an extremum in an interval;
-  /// the middle of the interval if no extremum is found. If double cannot tell the extremum from an end, the
-  /// result is a time near that end.
+  /// the middle of the interval if no extremum is found. If double cannot distinguish the extremum from an
+  /// end of the interval, the result is a time near that end.
   [[nodiscard]] static double turn(const Enclosure& interval, const std::array<double, 4>& f) {
     const auto [lo, hi] = interval;
     const double part = extremum(f);
@@ -154,8 +157,8 @@ class ContactSearch {
     return agree ? found(interval, interval) : zoom(interval);
   }
 
-  /// Notes a contact in `near`, a part of `interval` in which F changes its sign and all weights have one
-  /// sign.
+  /// Notes a contact in `near`. This is a part of `interval` in which F changes its sign and all weights have
+  /// one sign.
   FilterStage found(const Enclosure& near, const Enclosure& interval) {
     const Enclosure first = asked_ == Asked::when_precisely && is_whole() ? first_change(near) : near;
     found_ = in_step(first, is_whole() ? 0 : zoom_rounding);
@@ -163,8 +166,8 @@ class ContactSearch {
     return look_before(first, interval);
   }
 
-  /// Bisects an interval in which F changes its sign, and keeps the part with the first change. Ends at
-  /// neighbouring doubles, or as soon as errors hide where the first change is.
+  /// Bisects an interval in which F changes its sign, and keeps the part with the first change. The bisection
+  /// ends at neighbouring doubles, or as soon as errors hide which part has the first change.
   [[nodiscard]] Enclosure first_change(Enclosure near) const {
     const bool rises = F_.at(near.hi) > 0;
     while (true) {
@@ -194,8 +197,8 @@ class ContactSearch {
   }
 
   /// Requires that two weights certainly have opposite signs in `near`. Tries a few wider intervals around
-  /// `near`, and returns the widest in which two weights certainly have opposite signs, or `near` if there is
-  /// none.
+  /// `near`, and returns the widest one in which two weights still have opposite signs. If there is none,
+  /// returns `near`.
   Enclosure widest_opposed(const Enclosure& interval, double root, const Enclosure& near,
                            const Weights<Real>& weights) const {
     for (const double part : {0.25, 0x1p-5}) {
@@ -232,7 +235,7 @@ class ContactSearch {
   }
 
   /// Searches the interval as a part of its own. The interval remains unclear if it is longer than half of
-  /// this part, if this part is too short, or if this part is itself the result of too many zooms.
+  /// the current part, if the current part is too short, or if too many zooms have led to the current part.
   FilterStage zoom(const Enclosure& interval) {
     constexpr int deepest = 4;
     constexpr double narrowest = 0x1p-46;
@@ -268,7 +271,7 @@ class ContactSearch {
     return true;
   }
 
-  static constexpr double clear = 8;  ///< F is clear of its error if |F| exceeds this error by this factor
+  static constexpr double clear = 8;  ///< F is clear of its error if |F| is this many times the error
 
   Kind kind_;
   const StepPart<Real>& whole_;
@@ -277,7 +280,7 @@ class ContactSearch {
   int depth_;
   Asked asked_;
   std::optional<Enclosure> found_;    ///< in the time of the step; contains the first contact found so far
-  bool is_between_ = false;           ///< whether that contact is certainly at neither end of `found_`
+  bool is_between_ = false;           ///< whether this contact is certainly at neither end of `found_`
   std::optional<Enclosure> unclear_;  ///< in the time of the step; contains all unclear intervals
   std::optional<Weights<Real>> weights_;
   std::size_t component_ = 0;

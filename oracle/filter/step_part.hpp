@@ -11,32 +11,35 @@
 #include "oracle/arithmetic/vectors.hpp"
 
 // The filter decides a query in the frame of x0: with a = x1 - x0, b = x2 - x0, c = x3 - x0, linear in t,
-//   F  = a · (b × c)                       the coplanarity cubic, of both kinds (up to its sign),
+//   F  = a · (b × c)                       the coplanarity cubic, for both kinds (up to its sign),
 //   W0 = b × c, W1 = c × a, W2 = a × b     quadratics, three components each,
 //   W3 = (b - a) × (c - a) = W0 + W1 + W2.
-// At F = 0 the primitives meet only if, in every component, the following agree in sign or are zero:
+// At a time with F = 0, the primitives meet only if, in each of the three components, the following vectors
+// agree in sign or are zero:
 //   vertex-triangle: W0, W1, W2, which are the barycentric weights of x1, x2, x3 times N = W3;
-//   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, for x20 = α x10 - β x32.
-// The reason is that at a meeting point each weight is a number in [0, 1], and each W is that number times N,
-// even for N = 0. So two W with certainly opposite signs exclude a collision. If all W certainly have the
-// same sign in one component, N is not zero, and F = 0 means a collision. Then there is a collision if F
-// certainly changes its sign.
+//   edge-edge: W0, -W3, -W2, -W1, which are α, 1 - α, β, 1 - β times N = W0 - W3, where α and β solve
+//   x20 = α x10 - β x32, with x_ij = x_i - x_j.
+// The reason is that at a meeting point each of these vectors is a number in [0, 1] times N, even for N = 0.
+// So there is no collision if two of them certainly have opposite signs in one component. If all of them
+// certainly have the same sign in one component, N is not zero, and the primitives meet whenever F = 0. So if
+// F certainly changes its sign, too, there is a collision.
 //
-// Rounding errors are in units of U, the relative error of one operation (`roundoff`); (1 + U)^k - 1 is at
-// most 1.01 k U. For each computed component of a vector v, V bounds its magnitude, and e_v its error. The
-// comments below give the reason for each constant. tests/proofs/ derives the constants a second time from
-// this code, proves with Gappa that they suffice, and shows how near an error can come to its bound.
+// Rounding errors are given in units of U, the relative error of one operation (`roundoff`). After k
+// operations, the relative error (1 + U)^k - 1 is at most 1.01 k U. For each computed component of a vector
+// v, V bounds its magnitude, and e_v its error. The comments below give the reason for each constant.
+// tests/proofs/ derives the constants a second time from this code, proves with Gappa that they suffice, and
+// shows how near an error can come to its bound.
 //
 // - A product x y of two components changes by at most X e_y + Y e_x + e_x e_y because of the errors of its
 //   factors.
 //
 // - W_k consists of at most four products: the middle Bernstein coefficient is half the sum of two
 //   differences of two products. For the two products in component k of p × q, let w = P_i Q_j + P_j Q_i, and
-//   let l be the bound of the errors that come from their factors. The roundings of product, difference and
-//   sum add 3 U w; halving is exact. One level of de Casteljau's algorithm adds 3 roundings (s = 1 - t,
-//   product, sum), and its result stays within the range of the coefficients, because s + t = 1 with both in
-//   [0, 1]. Two levels add 6.1 U (w + l). In all, the error is at most 9.2 U w + (1 + 6.1 U) l (8 U w is
-//   proven, since t itself is exact). The code uses 10 U w + 1.01 l.
+//   let l bound the errors that come from the factors of these products. The roundings of product, difference
+//   and sum add 3 U w; halving is exact. One level of de Casteljau's algorithm adds 3 roundings (s = 1 - t,
+//   product, sum), and its result stays within the range of the coefficients, because s + t = 1, and s and t
+//   are in [0, 1]. Two levels add 6.1 U (w + l). In all, the error is at most 9.2 U w + (1 + 6.1 U) l (8 U w
+//   is proven, since t itself is exact). The code uses 10 U w + 1.01 l.
 //
 // - F is the dot product of a third vector a and such W_k, in which the halving is left out. The errors from
 //   the factors are L = Σ (A_k l_k + e_a (w_k + l_k)). There are 3 roundings in W_k, 1 in its product with
@@ -57,9 +60,9 @@
 //
 // - Overflow: sums of products are at most 2 w in W and 3 M in F, up to rounding. The bounds are computed
 //   from 4 w and 4 M (`headroom`). If a coefficient or a result of `Bernstein` overflows, it is infinite or
-//   NaN. Its error bound is then infinite or NaN, too, and every comparison with this bound fails.
-//   (Differences of coordinates that overflow have infinite magnitudes. In double words, a coefficient may be
-//   NaN where double would still be finite: `two_product` overflows when it splits a factor of about 2^997 or
+//   NaN. Its error bound is then infinite or NaN, too, and every comparison with this bound fails. (If a
+//   difference of coordinates overflows, its magnitude is infinite. In double words, a coefficient may be NaN
+//   where double would still be finite: `two_product` overflows when it splits a factor of about 2^997 or
 //   more.)
 
 namespace nearmiss::certified {
@@ -81,7 +84,7 @@ template <class Real>
 struct Motion {
   Vec<Real> start, end;
   Vec<Bound<Real>> magnitude;  ///< the larger of the magnitudes at the two ends, for each component
-  bool rounded_once;       ///< whether components are exact up to a factor of 1 ± U; `error` is then not set
+  bool rounded_once;       ///< whether each component is exact up to a factor 1 ± U; `error` is then not set
   Vec<Bound<Real>> error;  ///< bound of the error at both ends, for each component
 };
 
@@ -116,8 +119,8 @@ Motion<Real> difference(const Points& x, std::size_t i, std::size_t j) {
   return motion;
 }
 
-/// The motion over the part [lo, hi] of the time that `whole` covers. Each component is rounded 3 times: in 1
-/// - t, in the products, and in the sum.
+/// The motion over the part [lo, hi] of the time that `whole` covers. Each component is rounded 3 times: in
+/// the difference 1 - t, in the products, and in the sum.
 template <class Real>
 Motion<Real> part_of(const Motion<Real>& whole, const Bound<Real>& lo, const Bound<Real>& hi) {
   Motion<Real> part;
@@ -227,7 +230,7 @@ StepPart<Real> part_of(const StepPart<Real>& whole, double begin, double end) {
   return {begin, end, part(whole.a), part(whole.b), part(whole.c), part(whole.x21), part(whole.x31)};
 }
 
-/// The weights' quadratics in component k, with signs chosen so that all weights agree in sign at a
+/// Component k of each weight, a quadratic. The signs are chosen so that all weights agree in sign at a
 /// collision.
 template <class Real>
 struct Weights {
@@ -273,7 +276,7 @@ struct Weights {
   }
 };
 
-/// A guess in which of its components the normal is largest near a time.
+/// A guess of the component in which the normal is largest near the time t.
 template <class Real>
 std::size_t largest_component(Kind kind, const StepPart<Real>& p, double t) {
   const auto near = [&](const Motion<Real>& m) {

@@ -27,8 +27,8 @@ int orientation(const std::array<Point, 4>& x, int i, int j, int l, int k) {
 
 bool agree(int first, int second) { return first * second >= 0; }
 
-/// The coordinates of the vertices at a time, and whether all of them are certainly doubles; if not, `x`
-/// means nothing. two_product() is exact for products far above the smallest double.
+/// The coordinates of the vertices at a time, and whether all of them are certainly doubles. If they are not,
+/// `x` means nothing. two_product() is exact for products far above the smallest double.
 struct CoordinatesAt {
   std::array<double, 12> x;
   bool are_exact = true;
@@ -57,8 +57,9 @@ struct InPlane {
   std::size_t k;
 
   /// Whether the vertex certainly crosses the edge near t. `area` is the area of the triangle of the vertex
-  /// and the edge, and is about 0 at t. When the area changes its sign, the vertex is on the edge's line. If,
-  /// in one coordinate, the vertex is also between the ends of the edge, it is on the edge.
+  /// and the edge, and is about 0 at t. When the area changes its sign, the vertex is on the line through the
+  /// edge. If one of its coordinates is then also between the coordinates of the edge's ends, the vertex is
+  /// on the edge.
   [[nodiscard]] bool cross_near(double t, const Bernstein<double, 3>& area) const {
     const double slope = 2 * ((1 - t) * (area.b[1] - area.b[0]) + t * (area.b[2] - area.b[1]));
     const double h = 4 * area.error / std::abs(slope) + 0x1p-50;
@@ -76,7 +77,8 @@ struct InPlane {
     return lies_between((k + 1) % 3) || lies_between((k + 2) % 3);
   }
 
-  /// Whether the vertex certainly crosses the edge at a time at which the area of their triangle is 0.
+  /// Whether the vertex certainly crosses the edge at a time at which the triangle of the vertex and the edge
+  /// has the area 0.
   [[nodiscard]] bool cross() const {
     const Bernstein<double, 3> area = cross_component(from_start, along, k);
     if (common_sign(area.b, area.error) != 0) return false;
@@ -101,8 +103,8 @@ bool touch_at(const Query& query, double time) {
       return agree(side, orientation(x, 0, 2, 3, k)) && agree(side, orientation(x, 1, 0, 3, k)) &&
              agree(side, orientation(x, 1, 2, 0, k));
     }
-    // Two edges that are not parallel meet if, for each of them, its two ends are on different sides of the
-    // line through the other edge, or an end is on this line.
+    // Two edges that are not parallel meet if each edge has its two ends on different sides of the line
+    // through the other edge, or an end on this line.
     const int of_0 = orientation(x, 2, 3, 0, k);
     const int of_1 = orientation(x, 2, 3, 1, k);
     const int of_2 = orientation(x, 0, 1, 2, k);

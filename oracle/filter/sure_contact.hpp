@@ -7,8 +7,8 @@
 namespace nearmiss::certified {
 
 /// Whether the primitives touch at a time in [0, 1], by exact predicates. The answer is exact if the
-/// coordinates of all vertices at that time are certainly doubles, as at t = 0 and t = 1; otherwise it is
-/// false.
+/// coordinates of all vertices at that time are certainly doubles, as they are at t = 0 and t = 1. Otherwise
+/// the answer is false.
 bool touch_at(const Query& query, double time);
 
 /// Whether a vertex certainly crosses an edge of the other primitive while both stay in a plane perpendicular

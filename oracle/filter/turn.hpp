@@ -20,7 +20,7 @@ class Turn {
   using Mask = typename Real::Mask;
 
  public:
-  /// The arguments are the vectors at that time, which may be multiplied by one common factor.
+  /// The arguments are the vectors at the given time. All of them may be multiplied by one common factor.
   Turn(const Vec<Real>& x21, const Vec<Real>& x31, const Vec<Real>& a) {
     const Vec<Real> x32 = x31 - x21;
     Vec<Real> normal;

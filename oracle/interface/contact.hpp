@@ -16,8 +16,8 @@ namespace nearmiss {
 /// Exact CCD. Every function returns whether the distance of its two primitives is at most `min_distance` at
 /// some t in [0, tmax], and sets `toi` to the largest double that is not after the first such t. So the
 /// distance is above `min_distance` in [0, toi), and `toi` need not be scaled down. If there is no such t,
-/// `toi` is infinite. If a coordinate is not finite, `min_distance` negative, or tmax above 1, the functions
-/// report a collision with toi = 0, because a simulation must not take that step.
+/// `toi` is infinite. If a coordinate is not finite, `min_distance` is negative, or `tmax` is above 1, the
+/// functions report a collision with toi = 0, because a simulation must not take that step.
 ///
 /// A point may be of any type that gives its coordinates by operator[] or operator(). A point has three
 /// coordinates; if its size() is 2, the third coordinate is taken to be 0.
@@ -53,8 +53,8 @@ class ExactCCD {
   }
 
  private:
-  /// Converts a float to double exactly, even if the processor takes subnormal floats for 0. NaN becomes
-  /// infinity.
+  /// Converts a float to double exactly, even if the processor treats subnormal floats as 0. NaN and
+  /// -infinity become infinity.
   static double widened_float(float x) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     constexpr std::uint32_t exponent = 0x7f800000;

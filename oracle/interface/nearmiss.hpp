@@ -28,7 +28,7 @@ namespace nearmiss {
 enum class Status : int {
   ok = NEARMISS_OK,
   not_finite = NEARMISS_NOT_FINITE,  ///< every query is answered, but some answers are Answer::none or NaN
-  /// no query is answered, because a span has a wrong length or a pointer is null
+  /// no query is answered, because an argument is wrong, such as the length of a span
   bad_argument = NEARMISS_BAD_ARGUMENT,
   out_of_memory = NEARMISS_OUT_OF_MEMORY,  ///< memory ran out, and some queries are not answered
 };
@@ -57,19 +57,19 @@ enum class Prove : int {
 /// Two numbers that enclose a time or a distance. If there is no answer, both are NaN. If there is no
 /// collision, both ends of a time are infinite.
 struct Interval {
-  double lo = std::numeric_limits<double>::quiet_NaN();  ///< the lower one
-  double hi = std::numeric_limits<double>::quiet_NaN();  ///< the upper one
+  double lo = std::numeric_limits<double>::quiet_NaN();  ///< the lower end
+  double hi = std::numeric_limits<double>::quiet_NaN();  ///< the upper end
 };
 
 /// A sentence that explains a status.
 inline const char* message(Status status) noexcept { return nearmiss_message(static_cast<int>(status)); }
 
-/// Queries of one kind in the caller's memory, which must outlive this object. Nothing is copied.
+/// Queries of one kind, which stay in the caller's memory. This memory must outlive the object.
 class Queries {
  public:
   /// Queries that are stored one after another. Each query consists of the coordinates of x0 x1 .. at t = 0,
-  /// followed by the coordinates of the same points at t = 1. If too few numbers for a whole query are left
-  /// at the end, they are ignored.
+  /// followed by the coordinates of the same points at t = 1. Numbers that are left at the end, too few for a
+  /// whole query, are ignored.
   static Queries packed(Kind kind, std::span<const double> x) noexcept {
     return Queries(nearmiss_packed(to_c(kind), count_of(kind, x.size(), 6), x.data()));
   }
@@ -78,28 +78,28 @@ class Queries {
     return Queries(nearmiss_packed_float(to_c(kind), count_of(kind, x.size(), 6), x.data()));
   }
 
-  /// Pairs of primitives of a moving mesh: the vertex numbers of each pair, and three coordinates for each
-  /// vertex of the mesh at t = 0 and at t = 1.
+  /// Pairs of primitives of a moving mesh. `vertices` has the vertex numbers of each pair. `start` and `end`
+  /// have three coordinates for each vertex of the mesh, at t = 0 and at t = 1.
   static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const double* start,
                          const double* end) noexcept {
     return Queries(
         nearmiss_of_mesh(to_c(kind), count_of(kind, vertices.size(), 1), vertices.data(), start, end));
   }
-  /// Pairs of a moving mesh, in float.
+  /// Pairs of primitives of a moving mesh, with coordinates of type float.
   static Queries of_mesh(Kind kind, std::span<const std::int32_t> vertices, const float* start,
                          const float* end) noexcept {
     return Queries(
         nearmiss_of_mesh_float(to_c(kind), count_of(kind, vertices.size(), 1), vertices.data(), start, end));
   }
 
-  /// Any other layout, as nearmiss_queries describes it.
+  /// Queries in any other layout that nearmiss_queries can describe.
   explicit Queries(const nearmiss_queries& layout) noexcept : layout_(layout) {}
 
   /// These queries with one separation h for all. `h` must outlive the result.
   [[nodiscard]] Queries with_separation(const double& h) const noexcept { return with_separations(&h, 0); }
   Queries with_separation(double&&) const = delete;
-  /// These queries with a separation h[q] for each query q. If the number of separations is wrong, nothing
-  /// will be answered, and the status is bad_argument.
+  /// These queries with a separation h[q] for each query q. If the number of separations is wrong, no query
+  /// will be answered, and the status will be bad_argument.
   [[nodiscard]] Queries with_separations(std::span<const double> h) const noexcept {
     Queries queries = with_separations(h.data(), sizeof(double));
     queries.separations_ = h.size();
@@ -148,8 +148,8 @@ bool fits(const Queries& queries, std::span<T> to, bool may_be_empty = false) {
 }
 
 /// Calls a C function with the layout. If a span does not fit, returns bad_argument instead. If there are no
-/// queries, returns ok without a call, because an empty span may be a null pointer, which the C functions
-/// refuse.
+/// queries, returns ok without a call: the pointer of an empty span may be null, and the C functions refuse
+/// null pointers.
 template <class Call>
 Status ask(const Queries& queries, bool fit, const Call& call) {
   if (!fit || !queries.has_its_separations()) return Status::bad_argument;
@@ -221,8 +221,8 @@ inline Status wang(const Queries& queries, std::span<std::int8_t> answers) noexc
                      [&](const nearmiss_queries* layout) { return nearmiss_wang(layout, answers.data()); });
 }
 
-/// nearmiss_wang_bound(): a bound for each query. If wang falsely reports the query, its primitives come
-/// within this distance.
+/// nearmiss_wang_bound(): a bound for each query. If wang reports the query, its smallest distance exceeds
+/// its separation by at most this bound.
 inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noexcept {
   const bool fit = detail::fits(queries, bounds);
   return detail::ask(queries, fit, [&](const nearmiss_queries* layout) {
@@ -230,8 +230,8 @@ inline Status wang_bounds(const Queries& queries, std::span<double> bounds) noex
   });
 }
 
-/// The coordinates of one query: those of x0 x1 .. at t = 0, then those of the same points at t = 1. If there
-/// are fewer numbers than the kind of query needs, the functions give no answer.
+/// The coordinates of one query: those of x0 x1 .. at t = 0, then those of the same points at t = 1. If these
+/// are fewer numbers than a query of the given kind has, the functions give no answer.
 using Coordinates = std::span<const double>;
 
 /// nearmiss_collides() for one query.

@@ -74,8 +74,9 @@ int for_each_time(const nearmiss_queries* queries, double width, const Set& set,
   return for_blocks(queries, [&](const QueryRows& block, std::size_t first) {
     std::array<FilterStage, block_size> stages;
     std::array<KnownTime, block_size> times;
-    // If `width` is above 0, a search that treats several queries side by side may find another enclosure of
-    // a time than a search that treats one query at a time.
+    // The answers must not depend on which queries are asked together. If `width` is above 0, a search for
+    // the times of several queries side by side may find another enclosure than a search for one of these
+    // times. So only a `width` of 0 allows the search side by side.
     const bool side_by_side =
         width == 0 && block.size() >= fewest_side_by_side && ask_for_contact(*queries, first, block.size());
     if (side_by_side) filter_for_times(block, stages, std::span(times).first(block.size()));

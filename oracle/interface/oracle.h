@@ -5,9 +5,9 @@
  * and degenerate primitives. Nearly all queries are decided in double arithmetic with certified error bounds,
  * without memory from the heap. Exact arithmetic decides the other queries. It also decides whether there is
  * contact at t = 0 or t = 1, if double arithmetic cannot. Exact arithmetic allocates memory and takes
- * microseconds to milliseconds; the certificates of the slowest known queries, with coordinates of very
- * different sizes, take tenths of a second. nearmiss_smallest_distance() allocates memory, too. A program
- * cannot go on after an allocation that fails inside GMP or CGAL.
+ * microseconds to milliseconds. The slowest known certificates take tenths of a second; their queries have
+ * coordinates of very different sizes. nearmiss_smallest_distance() allocates memory, too. A program cannot
+ * go on after an allocation that fails inside GMP or CGAL.
  *
  * Many threads may call all functions at once; each call works in its own thread. The functions set the
  * processor's rounding mode if need be, and restore it. They do not print or throw. */
@@ -28,7 +28,7 @@ extern "C" {
 /* The statements that a certificate proves. */
 #define NEARMISS_PROVE_DECISION 0 /**< the answer of nearmiss_collides() */
 #define NEARMISS_PROVE_TIME 1     /**< the bounds lo and hi of nearmiss_earliest_time() for a `width` of 0 */
-#define NEARMISS_PROVE_DISTANCE 2 /**< bounds of the smallest distance, of a relative width of 1e-3 */
+#define NEARMISS_PROVE_DISTANCE 2 /**< bounds of the smallest distance, for a `relative_width` of 1e-3 */
 
 /** Whether each query is a collision: answers[q] is NEARMISS_COLLISION, NEARMISS_NO_COLLISION or
  * NEARMISS_NO_ANSWER. A smallest distance of exactly h, the separation, counts as a collision. `decided_by`
@@ -52,9 +52,9 @@ int nearmiss_time_of_impact(const nearmiss_queries* queries, double tmax, int8_t
 int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_width, double* lo,
                                double* hi);
 
-/** The certificate of query q. From a certificate, the short programs in tools/certificates/ of the sources
- * verify the answer with fractions alone. A certificate is a text of lines, with '\n' between successive
- * lines. Each line is JSON, and proves one statement about the query:
+/** The certificate of query q: a proof of the answer, which the short programs in tools/certificates/ of the
+ * sources check with fractions alone. A certificate is a text of lines, with '\n' between successive lines.
+ * Each line is JSON, and proves one statement about the query:
  *
  *     what                       statements
  *     NEARMISS_PROVE_DECISION    the distance is always above h; or it is at most h at some time
@@ -63,14 +63,14 @@ int nearmiss_smallest_distance(const nearmiss_queries* queries, double relative_
  *     NEARMISS_PROVE_DISTANCE    the distance is always at least lo, unless lo is 0; it is at most hi at some
  *                                time, unless hi is infinite. Separations are ignored
  *
- * Compare what a line states with what you asked: a line may be a valid proof about another query.
- * A statement without a proof is left out. This happens only if the distance touches h > 0 at an irrational
- * time, and neither falls below h nor stays at h at that time. If no statement is left, or there is no
- * answer, the text is empty.
+ * Compare what a line states with what you asked: a line may be a valid proof about another query. If a
+ * statement has no proof, its line is left out. This happens only if, at an irrational time, the distance
+ * falls to exactly h > 0 and then grows again at once. If no line is left, or there is no answer, the text is
+ * empty.
  *
  * `length` is set to the number of characters of the whole text. As with snprintf(), at most `size`
- * characters are written to `text`, the last of them a '\0', and the rest is cut off. If `size` is 0, nothing
- * is written, and `text` may be null. */
+ * characters are written to `text`, including a '\0' at the end, and the rest of the text is cut off. If
+ * `size` is 0, nothing is written, and `text` may be null. */
 int nearmiss_certificate(const nearmiss_queries* queries, size_t q, int what, char* text, size_t size,
                          size_t* length);
 

@@ -57,8 +57,8 @@ const std::vector<RayDirection>& directions() {
 
 // --- triangles --------------------------------------------------------------------------------------------
 
-/// The number of times that a ray from the origin crosses a surface; nothing if this number is undefined,
-/// because the ray meets an edge or runs in the surface's plane.
+/// The number of times that a ray from the origin crosses a surface. The value is nothing if this number is
+/// undefined, because the ray meets an edge of the surface or runs in its plane.
 using Crossings = std::optional<int>;
 
 /// The number of times that a ray with direction d crosses a triangle that does not contain the origin.
@@ -69,8 +69,8 @@ Crossings cross_triangle(const IntegerVector& a, const IntegerVector& b, const I
     // The triangle's plane contains the origin, so a ray that leaves the plane does not meet the triangle.
     const IntegerVector n = CGAL::cross_product(b - a, c - a);
     if (n == CGAL::NULL_VECTOR) {
-      // The triangle is a segment or a point. Only rays in a plane through the origin and the triangle can
-      // meet it.
+      // The triangle is a segment or a point. Only a ray in a plane through the origin and the triangle can
+      // meet the triangle.
       for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
         if (const IntegerVector m = CGAL::cross_product(p, q); m != CGAL::NULL_VECTOR && side(m, d) == 0)
           return std::nullopt;
@@ -142,9 +142,9 @@ bool reaches_zero_at_root(Quadratic g, const Quadratic& h) {
   return false;
 }
 
-/// Whether the origin is on a flat patch. Requires that the origin is in the patch's plane. The origin is on
-/// the patch iff, for some t in [0, 1], it is on the segment from the patch's point for (0, t) to its point
-/// for (1, t).
+/// Whether the origin is on a flat patch. The origin must be in the plane of the patch. The origin is on the
+/// patch iff, for some t in [0, 1], it is on the segment from the patch's point for (0, t) to its point for
+/// (1, t).
 bool flat_patch_holds_origin(const BilinearPatch& patch) {
   const IntegerVector a0 = patch.p00;
   const IntegerVector a1 = patch.p01 - patch.p00;
@@ -181,7 +181,7 @@ Position position(const BilinearPatch& patch) {
     result.in_plane = in_plane && !result.on_patch;
     return result;
   }
-  // λ times the volume of the tetrahedron: a determinant with one corner replaced by the origin.
+  // Each λ times the volume of the tetrahedron is a determinant in which the origin replaces one corner.
   const Integer l00 = determinant(p10, p01, p11);
   const Integer l10 = -determinant(p00, p01, p11);
   const Integer l01 = determinant(p00, p10, p11);
@@ -218,8 +218,8 @@ Crossings cross_patch(const BilinearPatch& patch, const Position& position, cons
 
 // --- the boundary of the domain ---------------------------------------------------------------------------
 
-/// For each axis, the smallest k for which 2^k times every coordinate along this axis is an integer. Scaling
-/// an axis changes no answer.
+/// For each axis, the smallest k such that 2^k times a coordinate is an integer for every coordinate along
+/// this axis. Scaling an axis changes no answer.
 using Scale = std::array<int, 3>;
 
 Scale integer_scale(const Query& query) {
@@ -274,7 +274,7 @@ std::vector<BilinearPatch> boundary(const Query& query) {
     else
       faces.push_back({f(0, 2, time), f(1, 2, time), f(0, 3, time), f(1, 3, time)});
   }
-  // Each of the other faces belongs to a vertex of one primitive and an edge of the other.
+  // Each of the other faces belongs to a vertex of one primitive and an edge of the other primitive.
   for (const auto& [vertex, from, to] : of.first_to_second)
     faces.push_back({f(vertex, from, 0), f(vertex, to, 0), f(vertex, from, 1), f(vertex, to, 1)});
   for (const auto& [vertex, from, to] : of.second_to_first)

@@ -16,11 +16,12 @@ struct RootParity {
   [[nodiscard]] bool collision() const { return on_boundary || odd; }
 };
 
-/// Root parity (Brochu, Edwards and Bridson 2012). f(t, u, v), the difference of two points at time t, one on
-/// each primitive, maps a prism (vertex-triangle) or a cube (edge-edge) to space. The number of roots of f is
-/// odd iff a ray from the origin crosses the image of the boundary of this domain an odd number of times. The
-/// answer is exact: if the ray meets an edge, other directions are tried, and finally an infinitesimal
-/// perturbation.
+/// Root parity (Brochu, Edwards and Bridson 2012). The function f(t, u, v) is the difference of two points at
+/// time t, one on each primitive; u and v are the coordinates of the points on the primitives. f maps a prism
+/// (vertex-triangle) or a cube (edge-edge) to space. The number of roots of f is odd iff a ray from the
+/// origin crosses the image of the boundary of this domain an odd number of times. The answer is exact: if
+/// the ray meets an edge, rays in other directions are tried, and finally a ray whose direction is perturbed
+/// by infinitesimals.
 RootParity root_parity(const Query& query);
 
 }  // namespace nearmiss
