@@ -19,9 +19,9 @@ struct Case {
   std::string provenance = {};     ///< origin of the query, such as "planted:1:42" (family, seed, index)
 };
 
-/// Writes a case in the format of *.case files. The lines of `why` come first, as comments. Each point is one
-/// line of three numbers, in decimal if the decimals are exact, else as hex floats. All labels except
-/// `truth`, `separation` and `provenance` are required:
+/// Writes a case in the format of *.case files. The lines of `why` come first, as comments. Each point is a
+/// line with three numbers. A number is written as a decimal if the decimal is exact, otherwise as a hex
+/// float. The kind and its points are required; `truth`, `separation` and `provenance` may be missing:
 ///
 ///     # Two roots: parity is even, yet it is a collision.
 ///     kind ee

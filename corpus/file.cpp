@@ -25,7 +25,8 @@ Error cannot_be_written(const fs::path& file, const std::string& why) {
   return Error(fmt::format("{}: cannot be written: {}", file.string(), why));
 }
 
-/// Writes the text to a file, and returns whether the whole text was written. If it was not, errno says why.
+/// Writes the text to a file, and returns whether the whole text was written. After a failure, errno says
+/// why.
 bool write(const fs::path& file, std::string_view text) {
   errno = 0;
   std::ofstream out(file, std::ios::binary);
@@ -47,8 +48,8 @@ fs::path new_file_beside(const fs::path& place) {
   }
 }
 
-/// The path of a PartFile, in a form that a signal handler can read: the handler may use only lock-free
-/// objects, and allocate nothing.
+/// The path of a PartFile, in a form that a signal handler can read: a handler may use only lock-free
+/// objects, and must not allocate memory.
 struct KnownPart {
   enum State : std::uint8_t { unused, changing, used };
   std::atomic<State> state = unused;
@@ -61,8 +62,8 @@ std::array<KnownPart, 16>& known_parts() {
   return parts;
 }
 
-/// Notes the path of a PartFile, so that a signal handler can remove the file. The handler leaves the file
-/// behind if too many paths were noted before, or if the path is too long.
+/// Notes the path of a PartFile, so that a signal handler can remove the file. If the path is too long, or if
+/// too many other paths are noted, the path is not noted, and the handler leaves the file behind.
 void remember(const fs::path& path) {
   const std::string& text = path.native();
   for (KnownPart& part : known_parts()) {
@@ -114,7 +115,7 @@ void remove_part_files() noexcept {
 
 namespace {
 
-/// Whether a path leads, directly or through links, to an open file of a process, as /dev/stdout does.
+/// Whether a path leads, directly or through links, to a file that a process has open, as /dev/stdout does.
 bool is_open_file(fs::path path) {
   constexpr int most_links = 40;
   std::error_code none;

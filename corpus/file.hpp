@@ -21,8 +21,8 @@ class PartFile {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// Asks the system to write the file's content to disk, and to drop it from memory. Without this call,
-  /// removing a file of gigabytes takes seconds.
+  /// Asks the system to write the file's content to disk, and to drop the content from memory. Without this
+  /// call, removing a file of gigabytes takes seconds.
   void write_out() const;
 
   /// Renames the file to `place`. Throws Error if the file cannot be renamed.
@@ -40,7 +40,8 @@ void remove_part_files() noexcept;
 /// (/dev/stdout), the text is written to it directly. Throws Error if the file cannot be written.
 void replace_file(const std::filesystem::path& file, std::string_view text);
 
-/// Throws Error if replace_file() could not replace this file.
+/// Throws Error if replace_file() would fail because the path leads to a folder, or because no file can be
+/// made beside the file to replace. Changes nothing.
 void expect_replaceable(const std::filesystem::path& file);
 
 /// The absolute path of a file, in which all links are resolved. The file need not exist.
@@ -50,8 +51,8 @@ std::filesystem::path true_path(const std::filesystem::path& path);
 /// that leads to nothing is accepted.
 void expect_regular_file(const std::filesystem::path& file);
 
-/// The whole content of a stream. If the stream cannot be read to its end, throws an Error that calls the
-/// stream `name`.
+/// The whole content of a stream. Throws an Error, which calls the stream `name`, if the stream cannot be
+/// read to its end.
 std::string read_all(std::istream& in, std::string_view name);
 
 /// The whole content of a regular file. Throws Error if the path leads to something other than a regular

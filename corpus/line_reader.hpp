@@ -9,8 +9,8 @@
 
 namespace nearmiss {
 
-/// The largest length of a line, in bytes. LineReader refuses longer lines, because a line of a device or a
-/// sparse file may never end.
+/// The largest length of a line, in bytes. LineReader refuses longer lines, because a device may send a line
+/// without an end, and a sparse file may have a line of any length.
 inline constexpr std::size_t most_line_bytes = 1 << 20;
 
 /// Goes through the lines of a stream, which must outlive this object.
@@ -19,8 +19,8 @@ class LineReader {
   /// Error messages call the stream `name`.
   LineReader(std::istream& in, std::string_view name);
 
-  /// Goes on to the next line. Returns false at the end of the stream, or if the stream cannot be read
-  /// further. Throws Error if the line is longer than `most_line_bytes`.
+  /// Reads the next line. Returns false if there is no further line, or if the stream cannot be read further.
+  /// Throws Error if the line is longer than `most_line_bytes`.
   bool next();
 
   /// The current line, without its '\n'. In the first line, a byte order mark is skipped. The text is valid

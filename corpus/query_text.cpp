@@ -48,7 +48,7 @@ Number parse(std::string_view text, std::string_view where, std::string_view exp
                                             hex ? std::chars_format::hex : std::chars_format::general);
   if (end != digits.data() + digits.size()) throw fail();
   if (error == std::errc::result_out_of_range) {
-    // The number is too large, or so small that it rounds to 0. Only a number that is too large is refused;
+    // The number is too large, or so small that it rounds to 0. Only a number that is too large is an error.
     // strtod and strtof distinguish the two cases.
     const std::string again = std::string(hex ? "0x" : "").append(digits);
     if constexpr (std::is_same_v<Number, float>)
@@ -72,7 +72,7 @@ std::size_t significant_digits(std::string_view scientific) {
 
 /// Whether the shortest decimal that rounds to this value equals the value exactly. Among all decimals with
 /// the same number of digits, the shortest decimal is the nearest to the value. So the shortest decimal is
-/// exact if the exact decimal of the value has the same number of digits.
+/// exact if it has as many digits as the exact decimal of the value.
 bool has_exact_decimal(double value) {
   constexpr int most_digits = 767;  // the exact decimal of a double has at most this number of digits
   std::array<char, most_digits + 10> text;
@@ -109,7 +109,7 @@ std::size_t parse_words(std::string_view line, std::span<double> numbers, std::s
 }
 
 double checked_separation(double separation, std::string_view where) {
-  if (separation >= 0) return separation + 0.0;  // -0 is 0
+  if (separation >= 0) return separation + 0.0;  // turns -0 into 0
   throw Error(
       fmt::format("{}: found the separation {}, expected a number that is not negative", where, separation));
 }

@@ -1,4 +1,4 @@
-// Queries as text: the only reader and writer of coordinates.
+// Reads and writes queries, and the numbers in them, as text.
 #pragma once
 
 #include <charconv>
@@ -14,12 +14,12 @@ namespace nearmiss {
 /// A text without the byte order mark of UTF-8 that some editors write at the beginning.
 std::string_view without_byte_order_mark(std::string_view text);
 
-/// Parses a finite number, decimal or C hex float ("0x1.8p-3"), and rounds it to the nearest double. The
-/// locale has no influence. Throws Error "<where>: found '...', expected a finite number".
+/// Parses a finite number, which is a decimal or a C hex float ("0x1.8p-3"), and rounds it to the nearest
+/// double. Throws Error "<where>: found '...', expected a finite number" for any other text.
 double parse_number(std::string_view text, std::string_view where);
 
-/// Parses a number in the syntax of parse_number, and rounds it once to the nearest float. Throws Error
-/// "<where>: found '...', expected a number in the range of float" for anything else, and for a number that
+/// Parses a number in the syntax of parse_number, and rounds it directly to the nearest float. Throws Error
+/// "<where>: found '...', expected a number in the range of float" for any other text, and for a number that
 /// is too large.
 float parse_float(std::string_view text, std::string_view where);
 
@@ -43,8 +43,8 @@ double parse_separation(std::string_view text, std::string_view where);
 /// The shortest C hex float with this value.
 std::string to_hex(double value);
 
-/// The shortest decimal that is read as this value, such as "-2" or "0.25", if this decimal equals the value
-/// exactly; otherwise, to_hex(value).
+/// The shortest decimal that parse_number() rounds to this value, such as "-2" or "0.25", if this decimal
+/// equals the value exactly; otherwise, to_hex(value).
 std::string to_exact(double value);
 
 /// A query as hex floats separated by blanks: the vertices at t = 0, then at t = 1 (24 numbers for vt and ee,
@@ -52,13 +52,13 @@ std::string to_exact(double value);
 /// query back exactly.
 std::string to_line(const Query& query);
 
-/// A query in a form for people: the numbers of to_line() in decimals. Two blanks separate points, and three
-/// blanks separate the points at t = 0 from the points at t = 1. parse_line() reads the query back exactly.
-/// If a decimal does not equal its number exactly, to_line(query) follows as a second line.
+/// A query in a form for people: the numbers of to_line() in decimals. Two blanks separate points. Three
+/// blanks separate the points at t = 0, the points at t = 1, and the separation. parse_line() reads the query
+/// back exactly. If a decimal does not equal its number exactly, to_line(query) follows as a second line.
 std::string to_readable(const Query& query);
 
-/// Parses a query: coordinate_count(kind) coordinates, and perhaps a separation. Throws an Error that starts
-/// with `where`.
+/// Parses a query: coordinate_count(kind) coordinates, which a separation may follow. Throws an Error that
+/// starts with `where`.
 Query parse_line(Kind kind, std::string_view line, std::string_view where);
 
 /// Parses the short name of a kind: "vt", "ee", "vv" or "ve". Throws an Error that starts with `where`.

@@ -61,7 +61,8 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   if (in.peek() == std::ifstream::traits_type::eof())
     throw Error(fmt::format("{}: found an empty file, expected cases", name));
   const auto extension = path.extension();
-  // A program may record to a file of any name, so the content shows, too, whether a file is a recording.
+  // A program may record to a file with any name, so a file is also a recording if its content begins like
+  // one.
   if (extension == ".nmq" || begins_as_recording(in)) return read_records(path, sink);
   if (extension == ".case") {
     sink(parse_case(in, name));
@@ -76,8 +77,8 @@ void read_file(const fs::path& path, const CaseSink& sink) {
   expect_end(in, name);
 }
 
-/// Reads the truth that a comment " expect=1 ..." records for the next query; `truth` becomes empty if the
-/// comment says "expect=-" or "expect=?". Other comments change nothing.
+/// Reads the truth that a comment " expect=1 ..." records for the next query. If the comment says "expect=-"
+/// or "expect=?", `truth` becomes empty. Other comments change nothing.
 void read_truth(std::string_view comment, std::string_view where, std::optional<bool>& truth) {
   constexpr std::string_view label = "expect=";
   comment.remove_prefix(std::min(comment.find_first_not_of(" \t#"), comment.size()));

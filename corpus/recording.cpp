@@ -18,7 +18,7 @@ namespace nearmiss {
 
 namespace {
 
-/// Converts a record; returns nothing if its kind is unknown.
+/// Converts a record. Returns nothing if the record's kind is unknown.
 std::optional<Recorded> recorded(const nearmiss_record_slot& slot) {
   const auto kind = kind_of_bit(slot.kind);
   if (!kind) return std::nullopt;
@@ -82,8 +82,8 @@ UnusedRecords read_recording(const std::filesystem::path& file,
   std::memcpy(all.data(), bytes.data() + sizeof head, all.size() * sizeof(nearmiss_record_slot));
 
   UnusedRecords unused;
-  // The number of records that the program began to write, in both parts of the file. If the file was cut,
-  // some of these records are lost.
+  // The number of places, in both parts of the file, to which the program has written or begun to write a
+  // record. If the file was cut off, some of these places are lost.
   const auto filled = std::min(head.next_slot[0], head.slots) + std::min(head.next_kept[0], head.kept_slots);
   std::erase_if(all, [](const nearmiss_record_slot& each) {
     return each.number == 0 || nearmiss_record_check(&each) != each.check;

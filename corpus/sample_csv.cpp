@@ -32,8 +32,8 @@ Kind kind_of_file(const std::filesystem::path& path) {
                   path.string(), folder.string()));
 }
 
-/// The recorded truths of a CSV file that has no column for them. They are read from sample_truths(csv), if
-/// that file exists.
+/// The recorded truths for a CSV file without a column for truths. They are read from the file
+/// sample_truths(csv), if it exists.
 class SeparateTruths {
  public:
   explicit SeparateTruths(const std::filesystem::path& csv)
@@ -57,7 +57,7 @@ class SeparateTruths {
     are_known_ = true;
   }
 
-  /// The truth of the query with this number. Throws Error if the file of truths has no truth for it.
+  /// The truth of the query with this number. Throws Error if the file of truths has too few truths.
   [[nodiscard]] std::optional<bool> operator[](std::size_t query) const {
     if (!are_known_) return std::nullopt;
     if (query >= truths_.size()) refuse_count("more");

@@ -1,5 +1,5 @@
-// The sample-query CSV format: coordinates as rational numbers. Recorded truths are in a column, in a file of
-// their own, or absent.
+// The sample-query CSV format: coordinates as rational numbers. Recorded truths are in a column of the file,
+// in a separate file, or absent.
 #pragma once
 
 #include <filesystem>
@@ -26,8 +26,8 @@ std::optional<SampleNames> sample_names(Kind kind);
 /// The file that has the truths of the queries in `csv` if `csv` has no column for truths.
 std::filesystem::path sample_truths(const std::filesystem::path& csv);
 
-/// The eight lines of a query. The query must ask for contact, and its kind must be one that the format has.
-/// The lines have a column for the truth if `truth` is given.
+/// The eight lines of a query. The query's separation must be 0, and the format must have the query's kind
+/// (sample_names). The lines have a column for the truth if `truth` is given.
 std::string to_sample_csv(const Query& query, std::optional<bool> truth);
 
 }  // namespace nearmiss

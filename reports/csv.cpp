@@ -68,19 +68,19 @@ void add_counter(Fields& fields, const Counts& counts, const Counter<Counts, Sub
   }
 }
 
-/// Members of any other type get no field: distances.csv and times.csv have the histograms, and case files
-/// have the farthest false positives.
+/// Members of any other type get no field: the histograms are in distances.csv and times.csv, and the
+/// farthest false positives are in case files.
 template <class Member>
 void add_counter(Fields& /*fields*/, const Counts& /*counts*/, const Counter<Counts, Member>& /*counter*/) {}
 
-/// The confidence interval of the rate of false positives. statistics.csv has it for every family, even if
-/// the queries are not a random sample.
+/// The confidence interval of the rate of false positives. statistics.csv has this interval for every family,
+/// even if the family's queries are not a random sample.
 Value interval_of_false_positives(const Counts& counts) {
   const auto [lo, hi] = clopper_pearson(counts.false_positives, counts.others());
   return Bin{lo, hi};
 }
 
-/// Adds each counter, and after it the measures that are computed from it.
+/// Adds all counters and, after each counter, the measures that are computed from it.
 void add_counters(Fields& fields, const CountsSum& sum) {
   for_each_counter<Counts>([&](const auto& counter) {
     add_counter(fields, sum.counts, counter);
@@ -106,8 +106,8 @@ std::string line(const Fields& fields, std::string Field::*part) {
   return fmt::format("{}\n", fmt::join(parts, ","));
 }
 
-/// The text of a CSV file with `rows`. The headings come from `any`, an example of a row, because `rows` may
-/// be empty.
+/// The text of a CSV file with `rows`. The headings are taken from `any`, which is an example of a row,
+/// because `rows` may be empty.
 std::string as_csv(const Fields& any, const std::vector<Fields>& rows) {
   std::string text = line(any, &Field::heading);
   for (const Fields& row : rows) text += line(row, &Field::text);

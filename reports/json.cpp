@@ -43,8 +43,9 @@ ordered_json extreme_json(const Extreme& extreme) {
   return json;
 }
 
-/// The command that repeats the results of a run. Nothing if a time limit ended a run with several shards (no
-/// command can repeat this), or if the fact "again" is not a single nearmiss command that stores a run.
+/// The command that repeats the results of a run. Nothing if the run has several shards and was ended by a
+/// time limit, because no single command can repeat such a run. Also nothing if the fact "again" is not a
+/// single nearmiss command that stores a run.
 std::optional<std::string> command_to_repeat(const Run& run) {
   const std::string again = fact(run.info, "again");
   constexpr std::array that_store_runs{"fuzz ", "ladder ", "replay ", "scene ", "simulate ", "tightness "};
@@ -57,7 +58,7 @@ std::optional<std::string> command_to_repeat(const Run& run) {
   return fmt::format("{} --first {}", again, run.shards.front().cases);
 }
 
-/// The sections of report.json that are left out if they are empty.
+/// The sections that report.json lacks if they are empty.
 constexpr std::array<std::pair<const char*, ordered_json (*)(const Statistics&)>, 8> sections{
     {{"sizes", sizes_json},
      {"common_factors", common_factors_json},
@@ -131,8 +132,8 @@ ordered_json summary_json(const Campaign& campaign) {
 
 namespace {
 
-/// The time at which the page draws a query: the earliest time of a collision; without a collision, the time
-/// at which the primitives are closest.
+/// The time at which the page draws a query: the earliest time at which the primitives collide or, if they do
+/// not collide, the time at which they are closest.
 double moment(const Query& query) {
   auto earliest = earliest_time(query);
   return earliest ? earliest->enclosure().lo : closest_time(query);
@@ -191,8 +192,8 @@ ordered_json farthest_json(const ShownFarthest& each) {
           {"file", "farthest/" + each.exported.file}};
 }
 
-/// For each subject and kind with times of impact, the time farthest before t*, the exact earliest time, and
-/// the time farthest after t*.
+/// For each subject and kind with times of impact: the time that is farthest before t* (the exact earliest
+/// time), and the time that is farthest after t*.
 ordered_json extreme_times_json(const Statistics& statistics) {
   ordered_json json = ordered_json::array();
   for (const auto& [key, sum] : statistics.by_subject_and_kind())

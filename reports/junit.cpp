@@ -93,8 +93,8 @@ std::string commands(const Campaign& campaign) {
 }
 
 /// The shrunk queries of some findings, in the form that nearmiss replay reads. Takes only findings that
-/// `chosen` accepts, and leaves out findings that reports show but do not count. Takes the first finding of
-/// each signature, for at most three signatures.
+/// `chosen` accepts, and leaves out findings that reports only show (is_only_shown). Takes the first finding
+/// of each signature, for at most three signatures.
 template <class Chosen>
 std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) {
   constexpr std::size_t most = 3;
@@ -108,8 +108,8 @@ std::string queries(const std::vector<Finding>& findings, const Chosen& chosen) 
   return lines;
 }
 
-/// Queries for a test that failed. They come from findings whose query has the test's class or, if there are
-/// none, from findings in families of that class.
+/// Example queries for a test that failed. They come from findings whose query has the test's class or, if
+/// there is no such finding, from findings in families of that class.
 std::string queries_of(const ClassKey& key, const std::vector<Finding>& findings) {
   const auto is_own = [&](const Finding& each) {
     return each.subject == key.subject && each.query.kind == key.kind;

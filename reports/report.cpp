@@ -27,8 +27,8 @@ constexpr std::array<std::string_view, 7> fixed_files{
     data_file, "index.html", "statistics.csv", "classes.csv", "distances.csv", "times.csv", "findings.csv"};
 constexpr std::array sub_folders{"cases", "farthest"};
 
-/// The sub-folder in which files are written before they are renamed, so that a rename stays in one file
-/// system.
+/// The sub-folder in which files are written before they are moved to their places. It is inside the report's
+/// folder, so that a move is a rename in one file system.
 constexpr const char* part_name = ".nearmiss-part";
 
 /// Whether a path, relative to a report's folder, has the form of a file directly in one of `sub_folders`.
@@ -74,7 +74,7 @@ void expect_room(const fs::path& folder, const ReportPaths& own,
   }
 }
 
-/// Writes all files below `part`; report.json is last, so that it names only files that were written.
+/// Writes all files below `part`. Writes report.json last, so that it names only files that were written.
 void write_beside(const fs::path& part, const std::map<std::string, std::string>& files) {
   fs::remove_all(part);
   for (const char* sub_folder : sub_folders) fs::create_directories(part / sub_folder);
@@ -83,8 +83,8 @@ void write_beside(const fs::path& part, const std::map<std::string, std::string>
   replace_file(part / data_file, files.at(std::string(data_file)));
 }
 
-/// Moves all files from `part` to the folder. At every moment, each file of the report is named by the
-/// earlier report.json or by the new one, so that an interrupted replacement can be completed.
+/// Moves all files from `part` to the folder. At every moment, the earlier report.json or the new report.json
+/// names each file of the report. So a later call can complete an interrupted replacement.
 void put_in_place(const fs::path& part, const fs::path& folder, const ReportPaths& own,
                   const std::map<std::string, std::string>& files) {
   for (const char* sub_folder : sub_folders) fs::create_directories(folder / sub_folder);

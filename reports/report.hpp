@@ -22,15 +22,15 @@ namespace nearmiss {
 /// sweeps if there are any (sections/sections.hpp); and other fields.
 nlohmann::ordered_json summary_json(const Campaign& campaign);
 
-/// The runs as JSON. Each run has its facts, the command that repeats it, the number of decided cases, its
-/// missing shards, when it began, the run time of all shards together, and the environments of its shards,
-/// each environment once.
+/// The runs as JSON. The object of a run has the run's facts, the command that repeats the run, the number of
+/// decided cases, the missing shards, the time at which the run began, the run time of all shards together,
+/// and a list of the different environments of the shards.
 nlohmann::ordered_json runs_json(const std::vector<Run>& runs);
 
 /// JUnit's XML: a suite for each subject, with a test for each kind and class of families. A test fails if
-/// its counters have one of the failures in `failing`. The text of such a test has its failures in words, at
-/// most three queries in the form that nearmiss replay reads, and the commands that repeat the runs. If the
-/// oracle failed, the file also has a suite "oracle", which fails.
+/// its counters have one of the failures in `failing`. The text of a failed test describes its failures in
+/// words, and has at most three queries in the form that nearmiss replay reads, and the commands that repeat
+/// the runs. If the oracle failed, the file also has a suite "oracle", which fails.
 std::string junit_xml(const Campaign& campaign, const Failures& failing = usual_failures());
 
 /// Lines that GitHub's workflows show as annotations: one for each failure of a subject or of the oracle.
@@ -39,7 +39,7 @@ std::string github_annotations(const Campaign& campaign, const Failures& failing
 /// Data that a report shows in addition to the results of its campaign.
 struct ReportContext {
   std::optional<Changes> since = {};  ///< the comparison with earlier campaigns
-  std::vector<Hunt> hunts = {};       ///< how soon hunts find known defects
+  std::vector<Hunt> hunts = {};       ///< searches for known defects
   std::string audit = {};      ///< the audit of rounding constants, as the JSON that nearmiss audit writes
   std::string paper = {};      ///< the test of the paper's claims, as the JSON that nearmiss paper writes
   std::string distances = {};  ///< distances of features, taken from the JSON that nearmiss distance writes
@@ -51,11 +51,11 @@ struct ReportContext {
 /// The version of report.json, which reports/report.schema.json describes.
 inline constexpr int report_schema_version = 2;
 
-/// report.json, which has everything that the page shows: the schema's version; summary_json, with the
-/// counters by shown family (family.hpp); the headline, and a verdict on each subject; error against run
-/// time; the borders of histogram bins, and the names of the stages (ccd/wang/verdict.hpp); the first
-/// findings of each signature and the farthest false positives, with the names of their case files; the
-/// earliest and latest times of impact; and the sections of `context`.
+/// report.json, which has everything that the page shows: the schema's version; the members of summary_json,
+/// with the counters summed by shown family (shown_family in family.hpp); the headline, and a verdict on each
+/// subject; error against run time; the borders of histogram bins, and the names of the stages
+/// (ccd/wang/verdict.hpp); the first findings of each signature and the farthest false positives, with the
+/// names of their case files; the earliest and latest times of impact; and the sections of `context`.
 nlohmann::ordered_json report_json(const Campaign& campaign, const ReportContext& context = {});
 
 /// Writes the files of a report:
@@ -76,14 +76,15 @@ using ReportPaths = std::set<std::string>;
 /// names, and the cases that report.json names.
 ReportPaths files_of(const nlohmann::ordered_json& report);
 
-/// The files in a folder that belong to an earlier report, complete or interrupted. The set is empty if the
-/// folder is empty or does not exist. Throws Error if the folder is not that of a report.
+/// The files in a folder that belong to an earlier report, even if the writing of that report was
+/// interrupted. The set is empty if the folder is empty or does not exist. Throws Error if the folder is not
+/// that of a report.
 ReportPaths own_files(const std::filesystem::path& folder);
 
 /// Replaces the files `own` in a folder by `files`, a map from paths to contents; changes no other file.
-/// Writes all files to a temporary sub-folder and then moves them, report.json last. The next call completes
-/// an interrupted replacement. Throws Error, before it replaces any file, if another file is in the way or
-/// the files cannot be written.
+/// Writes all files to a temporary sub-folder, then moves them into the folder, report.json last. The next
+/// call completes an interrupted replacement. Throws Error, before it replaces any file, if another file is
+/// in the way or the files cannot be written.
 void replace_report(const std::filesystem::path& folder, const ReportPaths& own,
                     const std::map<std::string, std::string>& files);
 

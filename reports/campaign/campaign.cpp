@@ -26,8 +26,8 @@ namespace {
 /// Sorts the findings of a run's shards into the order in which a single machine would have found them, and
 /// drops the findings that a single machine would not have kept.
 void keep_first(std::vector<Finding>& findings) {
-  // All findings of a case come from one shard, which lists them in the right order. A stable sort keeps this
-  // order.
+  // All findings of one case come from one shard, which lists these findings in the right order. A stable
+  // sort keeps this order.
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.place < b.place; });
   FirstFindings first;
@@ -37,7 +37,7 @@ void keep_first(std::vector<Finding>& findings) {
 std::string describe(const RunInfo& info) {
   std::string text;
   for (const auto& [name, value] : info)
-    if (name != "again")  // its value is a command, which says no more than the other facts
+    if (name != "again")  // the value of "again" is a command, which says no more than the other facts
       text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, value);
   return text;
 }
@@ -110,7 +110,8 @@ std::vector<Finding> Campaign::findings() const {
 
 namespace {
 
-/// Throws Error if the campaign has results of an unknown run, because a merge could count them twice.
+/// Throws Error if the campaign has results of an unknown run, because a merge could count these results
+/// twice.
 void expect_known_runs(const Campaign& campaign, const std::string& name) {
   if (std::any_of(campaign.runs.begin(), campaign.runs.end(),
                   [](const Run& run) { return run.info.contains(origin_fact); }))
@@ -187,15 +188,16 @@ class RunMerger {
   std::map<RunInfo, Run> runs_;
   /// for each task, the facts of its first run, and the name of the input that has this run
   std::map<RunInfo, std::pair<RunInfo, std::string>> by_task_;
-  /// For each name of a plug-in or of a renamed subject: what the name stands for, and the first input that
-  /// has it.
+  /// For each name of a plug-in or of a renamed subject: a text that says what the name stands for, and the
+  /// name of the first input that uses the name.
   std::map<std::string, std::pair<std::string, std::string>> by_subject_;
   /// for each shard of a run, the name of the input that contains the shard
   std::map<std::tuple<RunInfo, std::uint64_t>, std::string> from_;
 };
 
-/// Whether the fact named `of` lists a name for which `condition` holds; true if the run does not have the
-/// fact. Commas divide the list, and a blank ends a name; the text after the blank is a comment.
+/// Whether `condition` holds for a name in the list that is the value of the fact `of`; true if the run does
+/// not have this fact. Commas divide the list. A blank ends a name, and the text after the blank is a
+/// comment.
 template <class Condition>
 bool any_name(const RunInfo& info, const std::string& of, const Condition& condition) {
   const std::string text = fact(info, of);
@@ -247,13 +249,14 @@ std::set<CountsKey> random_keys(const Campaign& campaign, const RunInfo& info) {
 /// Whether the queries of a family come from files.
 bool is_of_files(std::string_view root) { return root == "mesh" || root == "near" || root == "near-within"; }
 
-/// Finds results that would count twice if campaigns were merged: answers of a subject to the same random
-/// queries, or the same step of a simulation.
+/// Finds results that would count twice if campaigns were merged: two answers of one subject to the same
+/// random query, or two results for the same step of a simulation.
 class AskedQueries {
  public:
   /// Adds a campaign; `name` is the name of its store. Throws Error if this campaign and an earlier one have
-  /// the same step of a simulation, or have runs with the same seed that put queries of the same family to
-  /// the same subject. Shards of one run do not count as two runs, because they ask different queries.
+  /// the same step of a simulation. Also throws Error if both have a run with the same seed, and these two
+  /// runs put queries of the same family to the same subject. Shards of one run do not count as two runs,
+  /// because they ask different queries.
   void add(const Campaign& campaign, const std::string& name);
 
  private:

@@ -28,9 +28,10 @@ using RunInfo = std::map<std::string, std::string>;
 std::string fact(const RunInfo& info, const std::string& name);
 
 /// Names of facts about plug-ins begin with this text. A run has the facts "plug-in NAME sha256" and "plug-in
-/// NAME version". If the user gave the plug-in this NAME, "plug-in NAME detector" is the plug-in's own name.
-/// The environment of a shard has "plug-in NAME build id" and "plug-in NAME"; the value of the latter is the
-/// argument of --subject that names the plug-in, with an absolute path.
+/// NAME version". If the user chose NAME (--subject NAME=...), the fact "plug-in NAME detector" has the name
+/// that the plug-in gives itself. The environment of a shard has the facts "plug-in NAME build id" and
+/// "plug-in NAME". The value of the latter is the argument of --subject that names the plug-in, with an
+/// absolute path.
 inline constexpr std::string_view about_plugin = "plug-in ";
 inline constexpr std::string_view its_digest = " sha256";
 inline constexpr std::string_view its_detector = " detector";
@@ -38,12 +39,13 @@ inline constexpr std::string_view its_detector = " detector";
 /// the value "NAME=SUBJECT".
 inline constexpr std::string_view about_subject = "subject ";
 
-/// Whether a fact of a run says which code ran, not what the code was asked to do. Such facts are the version
-/// and the commit of nearmiss, and the bytes and the version of each plug-in.
+/// Whether a fact of a run, given by its name, says which code ran. Other facts say what the code was asked
+/// to do. The facts that say which code ran are the version and the commit of nearmiss, and all facts about
+/// plug-ins.
 bool says_which_code(std::string_view fact);
 
-/// The facts of a run that say what it was asked to do. The facts that say which code ran or what a salvage
-/// lost are left out.
+/// The facts of a run that say what the run was asked to do. Leaves out the facts that say which code ran,
+/// and the facts that a salvage adds.
 RunInfo task_of(const RunInfo& info);
 
 /// A fact that differs between two runs: its name, and its values in the two runs. A value is "" if the run
@@ -51,15 +53,15 @@ RunInfo task_of(const RunInfo& info);
 struct DifferentFact {
   std::string name, one, other;
 };
-/// A fact that differs between `one` and `other`, if any. The fact "again", the command that repeats a run,
-/// is not compared, because it says no more than the other facts.
+/// The first fact that differs between `one` and `other`, if any. The fact "again", which has the command
+/// that repeats a run, is not compared, because it says no more than the other facts.
 std::optional<DifferentFact> different_fact(const RunInfo& one, const RunInfo& other);
 
-/// Name of the fact that says what a run lost when its store was salvaged. A run with this fact differs from
-/// the original run, so no command resumes the salvaged run.
+/// Name of the fact that says what a run lost when its store was salvaged. This fact makes the salvaged run
+/// differ from the original run, so no command resumes the salvaged run.
 inline constexpr const char* salvaged_fact = "salvaged";
-/// Name of a fact about a salvaged store that has lost rows about runs. The salvage gives this fact to every
-/// run of the store, because some results may belong to a run that is no longer known.
+/// Name of the fact that a salvage gives to every run of a store if rows about runs or shards were lost. In
+/// such a store, some results may belong to a run that is no longer known.
 inline constexpr const char* origin_fact = "origin";
 
 /// Value of a run's fact "cases" if the run has no limit on the number of cases.
@@ -69,8 +71,8 @@ inline constexpr std::string_view until_the_time_is_over = "until the time is ov
 struct Shard {
   std::uint64_t index = 0;  ///< the position of this shard among the `count` shards of the run, from 0
   std::uint64_t count = 1;
-  /// The number of cases that this shard has decided so far. It decides them in order, so a resumed run goes
-  /// on with the case after them.
+  /// The number of cases that this shard has decided so far. A shard decides its cases in order, so a resumed
+  /// run goes on with the next case.
   std::uint64_t cases = 0;
   bool complete = false;
   std::string started = {};  ///< date and time of the start; only people read it, because clocks may jump
@@ -80,10 +82,10 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-/// A command and its results. `info` has everything on which the results depend, including the code that ran
-/// (`says_which_code`): runs with equal facts give equal results. Answers do not depend on the compiler, its
-/// flags or the path of a plug-in. These belong to the environment of a shard, so that different machines can
-/// share a run.
+/// A command and its results. `info` has all facts on which the results depend, including the code that ran
+/// (`says_which_code`), so runs with equal facts give equal results. Answers do not depend on the compiler,
+/// its flags or the path of a plug-in. These facts are in the environment of a shard, so that different
+/// machines can share a run.
 struct Run {
   RunInfo info;
   std::vector<Shard> shards;  ///< by index
@@ -101,19 +103,21 @@ struct Campaign {
 
   /// The findings of all runs in the order of display. Failures of the oracle come first, since they put all
   /// other findings in doubt. Findings that never count (beyond a contract) or count only on request
-  /// (--fail-on) come last. Within these groups, findings are sorted by `least_exotic_first`, then by how
-  /// often the signature was seen, then by signature, then by the simplicity of the shrunk query. If several
-  /// findings have the same signature, class, `broken_since` and shrunk query, only the first of them is
-  /// listed.
+  /// (--fail-on) come last. Within each of these three groups, findings are sorted by `least_exotic_first`,
+  /// then by how often their signatures were seen (the most frequent first), then by signature, then by the
+  /// complexity() of their shrunk queries. If several findings have the same signature, class, `broken_since`
+  /// and shrunk query, only the first of them is listed.
   [[nodiscard]] std::vector<Finding> findings() const;
 };
 
-/// Merges campaigns into one: counters add up, shards of the same run come together, and the first findings
-/// of each signature are kept. Thus all shards together give the campaign that one machine would have run.
-/// The result does not depend on the order of the inputs. Runs with different tasks, such as those of
-/// different nights, stay separate. Throws Error, with the inputs' names, if two inputs have the same shard
-/// of a run, divide a run into different numbers of shards, have runs that differ only in the code that ran,
-/// asked a subject the same queries in different runs, or use one name for different subjects.
+/// Merges campaigns into one: adds up counters, puts the shards of each run together, and keeps the first
+/// findings of each signature. If all shards of a run are merged, the result is the campaign that one machine
+/// would have run. The result does not depend on the order of the inputs. Runs with different tasks, such as
+/// those of different nights, stay separate. Throws an Error that names the inputs if two inputs have the
+/// same shard of a run or the same step of a simulation; if they divide a run into different numbers of
+/// shards; if they have runs that differ only in the code that ran; if different runs asked a subject the
+/// same queries; or if two inputs use one name for different subjects. Also throws Error if one of several
+/// inputs has results of an unknown run (origin_fact).
 Campaign merge_campaigns(std::span<const Campaign> campaigns, std::span<const std::string> names);
 
 /// A line that names the missing and the incomplete shards of a run; "" if all shards are complete.

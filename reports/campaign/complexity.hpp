@@ -1,4 +1,4 @@
-// How simple a query is for a reader.
+// Measures how complex a query looks to a reader.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@ namespace nearmiss {
 
 /// The complexities of two queries are compared member by member, in the order of declaration.
 struct Complexity {
-  /// How hard the query is to draw. Each distinct magnitude adds 0 if it is an integer of one digit, 1 if it
-  /// is another multiple of 1/4 below 100, and 2 otherwise.
+  /// How hard the query is to draw, as a sum over the distinct magnitudes of its numbers. A magnitude adds 0
+  /// if it is an integer of one digit, 1 if it is another multiple of 1/4 below 100, and 2 otherwise.
   int awkward = 0;
   /// Number of nonzero coordinates at t = 0 and at t = 1, plus 1 if the query has a separation. A coordinate
   /// that does not move counts once.

@@ -17,13 +17,14 @@ Finding of_shrunk(const Finding& finding);
 /// A case with the query of a finding. The case also records the true answer if the finding implies it.
 Case to_case(const Finding& finding);
 
-/// A name for the file of a finding's case: the sort of the finding, the subject, and `id`. Subjects with
-/// similar names, such as "a b" and "a;b", get the same text in file names, so the ids of their cases must
+/// A name for the file of a finding's case: the sort of the finding, the subject, and `id`. In file names,
+/// subjects with similar names, such as "a b" and "a;b", have the same text, so the ids of their cases must
 /// differ.
 std::string case_file_name(const Finding& finding, std::string_view id);
 
-/// Turns a text into a part of a valid file name: keeps letters, digits, '-' and '.', and replaces every
-/// other character by '_'. Cuts a text of more than 60 bytes, and appends a hash of the whole text.
+/// Turns a text into a part of a valid file name. Keeps letters, digits, '-' and '.', and replaces every
+/// other character by '_'. If the text has more than 60 bytes, keeps only its beginning, and appends a hash
+/// of the whole text.
 std::string file_name(std::string text);
 
 /// The lines of Finding::errors, without line ends.

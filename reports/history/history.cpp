@@ -20,9 +20,10 @@ using nlohmann::ordered_json;
 namespace {
 
 /// Remembers which changes the history has told, that is, shown as an event of a night. For each subject and
-/// topic, a sort of change ("new", "worse" and so on) is told once, until the subject's code changes or the
-/// opposite change is told. A rate or a way to fail that becomes significant only in a later night is further
-/// evidence of a change that was already told.
+/// topic, the history tells a sort of change ("new", "worse" and so on) once. It may tell this sort again
+/// after the subject's code has changed, or after it has told the opposite change. If another rate or another
+/// way to fail of the same topic becomes significant in a later night, this is further evidence of a change
+/// that was already told.
 class Told {
  public:
   [[nodiscard]] bool is_news(const ReportedChange& change) const {
@@ -45,12 +46,12 @@ class Told {
     if (what == "gone") told_.erase({subject, "worse", topic});
   }
 
-  /// Notes the end of a night, after all its changes have been told.
+  /// Notes the end of a night. Must be called after all changes of the night have been told.
   void end_night(const NightReport& night) {
     for (const auto& [subject, of_night] : night.subjects) {
       night_before_[subject].clear();
-      // After a clean night, a failure is news again, even if the subject's code seems unchanged. It may have
-      // changed: nearmiss does not know the code of a program (`pipe:`).
+      // After a clean night, a failure is news again, even if the subject's code seems unchanged. The code
+      // may have changed, because nearmiss does not know the code of a program that is a subject (`pipe:`).
       if (of_night.clean)
         std::erase_if(told_, [&, name = subject](const Topic& each) {
           const auto& [of, what, topic] = each;
@@ -76,8 +77,8 @@ class Told {
 class Slowed {
  public:
   /// Adds an event for each subject that became slower in an earlier night and is fast again: its time is
-  /// below the geometric mean of the slow time and the time that was expected when it became slower. The
-  /// report itself does not show this once slow nights are part of its baseline.
+  /// below the geometric mean of the slow time and the time that was expected when it became slower. Once
+  /// slow nights are part of the baseline, the reports themselves do not show that the subject is fast again.
   void add_events(Night& night, Told& told) {
     for (const auto& [name, subject] : night.report.subjects) {
       const double time = subject.ns_per_query.value_or(0);
@@ -124,9 +125,9 @@ const Sort& sort_of(std::string_view what) {
   return *std::find_if(sorts.begin(), sorts.end(), [&](const Sort& each) { return each.what == what; });
 }
 
-/// Adds the news in a night's report: one event for each subject and sort of change. The example in an event
-/// is the way to fail that the night saw most often; for other changes (failures that are gone, rates,
-/// times), it is the first change.
+/// Adds the news in a night's report: one event for each subject and sort of change. Each event has an
+/// example. For new ways to fail, the example is the one that the night saw most often; for other changes
+/// (failures that are gone, rates, times), the example is the first change.
 void add_changes(Told& told, Night& night) {
   struct Sum {
     std::size_t count = 0;

@@ -28,11 +28,11 @@ struct ReportedChange {
   std::string topic;    ///< the kind of failure or rate, such as "false negative", or "time"
   ChangeKey key;
   std::string text;        ///< "false-negative, vt simple-root inside in-face"
-  std::string fixed = {};  ///< for a failure that is gone: "in version 2", if known
+  std::string fixed = {};  ///< for a failure that is gone: "in version 2"; "" if unknown
   double ratio = 1;        ///< the run time divided by the expected run time; 1 for other changes
 };
 
-/// A subject in one night. Numbers that the night's report does not give are missing.
+/// A subject in one night. A number has no value if the night's report does not have it.
 struct SubjectNight {
   SubjectCode code;
   bool clean = true;
@@ -58,8 +58,8 @@ struct NightReport {
   std::set<std::string> baseline = {};  ///< the dates of the runs in the report's baseline
 };
 
-/// The nights in a folder, in the order of their dates. But a night always comes after the nights of its
-/// baseline, even if the clock was set back in between. A subfolder is a night if it has a report.json
+/// The nights in a folder, in the order of their dates. However, a night always comes after the nights of its
+/// baseline, even if the clock was set back between them. A subfolder is a night if it has a report.json
 /// (directly or in report/) or a store, or if its name is a date as tools/nightly writes it. Throws Error if
 /// the folder has no night or cannot be read.
 std::vector<NightReport> read_nights(const std::filesystem::path& folder);
@@ -78,7 +78,7 @@ struct Night {
   std::vector<NightEvent> events = {};  ///< changes of this night that no event of an earlier night has shown
 };
 
-/// A way to fail (a signature), and the nights that saw it, as indices into History::nights.
+/// A way to fail (a signature), and in which nights it was seen. Nights are indices into History::nights.
 struct WayToFail {
   std::string what, subject, signature;
   std::size_t first = 0, last = 0;
@@ -91,13 +91,14 @@ struct WayToFail {
 
 struct History {
   std::vector<Night> nights;  ///< the nights, in the order in which read_nights returns them
-  /// Lasting failures (`lasts`) come first, then the others. Each of these groups is sorted by the last night
-  /// that saw the failure, the latest first, then by the number of queries, the largest first.
+  /// Ways to fail for which `lasts` is true come first, then the others. Each of these two groups is sorted
+  /// by the last night that saw the way to fail, the latest first, then by the number of queries, the largest
+  /// first.
   std::vector<WayToFail> ways;
 };
 
-/// Finds out what changed in each night. The first night with a report has no events, because no earlier
-/// night is known.
+/// Finds out what changed in each night. The first night with a report has no events, because there is no
+/// earlier report to compare it with.
 History make_history(std::vector<NightReport> nights);
 
 nlohmann::ordered_json history_json(const History& history);

@@ -16,14 +16,15 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// The list that an object has under a name; an empty list if the object does not have the name.
+/// The list that is the member `name` of an object; an empty list if the object does not have this member.
 const ordered_json& list_in(const ordered_json& json, const char* name) {
   static const ordered_json none = ordered_json::array();
   const auto found = json.find(name);
   return found == json.end() ? none : *found;
 }
 
-/// The number that an object has under a name; nothing if the object has no number there.
+/// The number that is the member `name` of an object; nothing if the object does not have this member, or if
+/// the member is not a number.
 std::optional<double> number_in(const ordered_json& json, const char* name) {
   const auto found = json.find(name);
   if (found == json.end() || !found->is_number()) return std::nullopt;
@@ -95,7 +96,8 @@ void take_baseline(const ordered_json& json, NightReport& night) {
   for (const auto& each : list_in(json, "changed_times")) night.changes.push_back(changed_time(each));
 }
 
-/// A campaign that has only the facts of a report's runs; `code_of` finds in them which code ran.
+/// A campaign that has nothing but the facts of a report's runs. `code_of` reads in these facts which code
+/// ran.
 Campaign campaign_of(const ordered_json& runs) {
   Campaign campaign;
   for (const auto& json : runs) {

@@ -40,7 +40,7 @@ function linkButton(finding) {
 }
 
 /**
- * A card with a picture, which the user can enlarge, and with text about the picture.
+ * A card with text, and with a picture that the user can enlarge.
  * @param shown what the picture shows (makeViewer)
  * @param onOpen is called when the user enlarges the picture
  */
@@ -68,7 +68,10 @@ function pictureCard(shown, content, attributes = {}, onOpen = () => {}) {
   return card;
 }
 
-/** A query that the page shows on demand, with a button that copies the query's certificate, if any. */
+/**
+ * A query that the page shows after a click on `title`. A button copies the query's certificate, if there is
+ * one.
+ */
 const fold = (title, query, file, certificate) => made("details", [made("summary", title), ...(file ? [made("a", file, { href: file })] : []), queryText(query), copyQuery(query),
   ...(certificate ? [" ", copyButton(certificate, "copy the certificate")] : [])]);
 
@@ -89,8 +92,9 @@ const findingCard = (finding, attributes = { id: idOf(finding), tabindex: -1 }) 
 // --- findings -------------------------------------------------------------------------------------
 
 /**
- * The findings, each with its index and the text in which a filter looks for words. New findings come first,
- * then the others; both groups are in the order of the report (Campaign::findings).
+ * The findings. Each entry has a finding, its index in the report, and the text in which the filter looks for
+ * words. New findings come first, then the others; within both groups, the findings have the order of the
+ * report (Campaign::findings).
  */
 const findings = report.findings.map((finding, index) => ({ finding, index,
   words: [failureTitle(finding), finding.what, finding.signature, finding.kind, kindTitles[finding.kind], finding.family, finding.provenance,
@@ -175,7 +179,10 @@ function drawFilter() {
   });
 }
 
-/** Draws the simplest failure of the worst subject, the first subject in the first table. */
+/**
+ * Draws the simplest failure of the first failed subject in the page's first table; if no subject has one,
+ * the oracle's.
+ */
 function drawExample() {
   const worst = inOrder(report.verdicts).find(({ clean, finding }) => !clean && finding !== null);
   const index = worst ? worst.finding : report.findings.findIndex(({ subject }) => subject === ""); // the oracle's
@@ -222,7 +229,7 @@ function drawExtremeTimes() {
   show("extreme-times-section");
   // A time after t*, the exact earliest time, is not late if the primitives come no closer than the
   // separation before that time. If a subject gives both lower bounds and estimates, the report does not say
-  // which of the two a time is, so the page does not call the time late.
+  // whether a time is a lower bound or an estimate, so the page does not call the time late.
   const isLate = ({ subject, kind, side }) => {
     const { late, after_histogram: after } = report.subjects[subject][kind];
     return side === "after" && late === after.reduce((a, b) => a + b, 0);

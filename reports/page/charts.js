@@ -2,8 +2,8 @@
 "use strict";
 
 /**
- * The width of each of two panels side by side: 300 to `widest` pixels. `labels` is the width that the labels
- * of both panels need together.
+ * The width of a panel if two panels stand side by side, from 300 to `widest` pixels. `labels` is the width
+ * that the labels of the two panels need together.
  */
 const panelWidth = (widest, labels = 150) => Math.max(300, Math.min(widest, (element("how").clientWidth - labels) / 2));
 
@@ -25,8 +25,9 @@ const kindNames = Object.keys(kindTitles);
 const boundField = { field: "bound_of_distances", title: "bound" };
 
 /**
- * A logarithmic axis. If `values` contain 0 or infinity, an end of the axis stands for it, and the result's
- * function `at` maps it to this end. `written` is the Vega expression that formats other values.
+ * A logarithmic axis. If `values` has 0, the lower end of the axis stands for 0; if `values` has infinity,
+ * the upper end stands for infinity. The function `at` of the result maps a value to its place on the axis.
+ * `written` is the Vega expression that formats all other values.
  */
 function logAxis(values, written = "digits(datum.value, 3)") {
   const exponents = values.filter((v) => v > 0 && v < Infinity).map((v) => Math.log10(v));
@@ -46,13 +47,18 @@ function logAxis(values, written = "digits(datum.value, 3)") {
 
 const classNames = ["ordinary", "degenerate", "extreme", "unclassified"];
 
-/** Whether a row is a step of a sweep that report.json has for the row's subject; drawSweeps draws these. */
+/**
+ * Whether a row is a step of a sweep that report.json has for the row's subject; drawSweeps draws such rows.
+ */
 function isSweep({ subject, family }) {
   const swept = family.replace(/@[^~]*/, "");
   return swept !== family && Object.hasOwn(report.sweeps ?? {}, swept) && Object.hasOwn(report.sweeps[swept], subject);
 }
 
-/** The rows with false positives, except sweeps and queries that are no random samples (cases and scenes). */
+/**
+ * The rows with false positives. Leaves out sweeps, and queries that are not random samples (cases and
+ * scenes).
+ */
 function rateRows() {
   return countRows(true).filter((row) => row.false_positives > 0 && row.false_positive_rate_interval_95 !== null && !isSweep(row))
     .map((row) => ({ ...row, lo: row.false_positive_rate_interval_95[0], hi: row.false_positive_rate_interval_95[1],
@@ -65,7 +71,7 @@ function drawRates() {
   const names = chosenNames();
   const families = [...new Set(all.map((row) => row.family))].sort();
   const lowest = 10 ** Math.floor(Math.log10(Math.min(...all.map((row) => row.lo))));
-  // The chart is at most about 2,400 pixels high, unless the families' names need more than that.
+  // The chart is at most about 2,400 pixels high, unless the names of the families need more space.
   const rowsOfSubjects = hasPicker ? names.length + 1 : 1.25 * names.length;
   const step = Math.max(11 / rowsOfSubjects, Math.min(Math.max(4, 12 / names.length), 2300 / (families.length * rowsOfSubjects)));
   const hue = chosenColor();
@@ -99,10 +105,10 @@ function drawRates() {
     { data: { values: rows }, hconcat: kindNames.filter((kind) => all.some((row) => row.kind === kind)).map(panel) });
 }
 
-/** The counters of each subject, kind and family that have collisions, except sweeps. */
+/** The counters of each subject, kind and family with collisions, except sweeps. */
 const missRows = () => countRows(true).filter((row) => row.collisions > 0 && !isSweep(row));
 
-/** The misses of all kinds together, by subject and family, with a text for each kind. */
+/** For each subject and family, the misses of all kinds together, and a text for each kind. */
 function missedByFamily() {
   const cells = new Map();
   for (const row of missRows()) {
@@ -142,8 +148,8 @@ function drawMisses() {
 }
 
 function drawDistances() {
-  // The first bin begins at 0 and the last bin ends at infinity; on a logarithmic axis, each is drawn as wide
-  // as its neighbour.
+  // The first bin begins at 0, and the last bin ends at infinity. On a logarithmic axis, these two bins are
+  // drawn as wide as their neighbours.
   const borders = report.histogram_borders;
   const [width, last] = [borders[2] / borders[1], borders.length - 1];
   const begins = borders.map((border, i) => (i === 0 ? borders[1] / width : border));
@@ -201,7 +207,7 @@ function stageValues() {
   return values;
 }
 
-/** Whether any subject reports which of its stages accepted a query. Plug-ins do not. */
+/** Whether any subject reports which of its stages accepted a query. Plug-ins do not report this. */
 const hasStages = () => stageValues().some(({ stage, count }) => count > 0 && stage !== "unspecified");
 
 function drawStages() {

@@ -10,9 +10,9 @@ const report = JSON.parse(document.getElementById("report").textContent,
   (key, value) => (/over_bound$|^ratio$/.test(key) ? withInfinity(value) : value));
 
 /**
- * The folder of this page, if the page is a file; "" otherwise. The commands that replay findings contain
- * this path in front of `cases/`. So they work in any working directory, also after the report has been
- * copied together with its cases.
+ * The folder of this page, if the page is a file; "" otherwise. In the commands that replay findings, this
+ * path stands in front of `cases/`. So the commands work in any working directory, even after the report has
+ * been copied together with its cases.
  */
 const ownFolder = (() => {
   if (location.protocol !== "file:") return "";
@@ -38,7 +38,7 @@ function countRows(byFamily) {
   return rows;
 }
 
-/** The sums over the families of each class as rows [{subject, kind, class, ...counts}]. */
+/** Rows [{subject, kind, class, ...counts}] with the sums over the families of each class. */
 const classRows = () => Object.entries(report.subjects).flatMap(([subject, ofKind]) =>
   Object.entries(ofKind).flatMap(([kind, counts]) =>
     Object.entries(counts.classes).map(([name, each]) => ({ subject, kind, family: "", class: name, ...each }))));
@@ -52,8 +52,8 @@ const isNoRung = ({ subject, algorithm }) => subject === algorithm;
  */
 const isOfClaim = (row) => row.bound_of_distances === "claimed";
 /**
- * The mark of a distance: "**" unless it is a fraction of a claimed bound. Elements of the class "units"
- * explain the mark.
+ * The mark of a distance: "**" unless the distance is a fraction of a claimed bound. Elements of the class
+ * "units" explain this mark.
  */
 const unitMark = (row) => (isOfClaim(row) ? "" : "**");
 /**
@@ -62,7 +62,7 @@ const unitMark = (row) => (isOfClaim(row) ? "" : "**");
 const markOf = (subject) => (Object.values(report.subjects[subject]).every(isOfClaim) ? "" : "**");
 
 /**
- * The separation of a query: the number after the coordinates, of which each vertex has six; 0 without such
- * a number.
+ * The separation of a query. It is the number after the coordinates, and 0 if there is no such number. Each
+ * vertex has six coordinates.
  */
 const separationOf = (query) => (query.length % 6 === 1 ? query.at(-1) : 0);

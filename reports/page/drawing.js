@@ -1,4 +1,5 @@
-// Functions for the page of a report and the page of a history: elements, durations, and charts by Vega-Lite.
+// Functions that the page of a report and the page of a history share: elements, durations, and charts by
+// Vega-Lite.
 "use strict";
 
 const element = (id) => document.getElementById(id);
@@ -29,8 +30,8 @@ const look = { customFormatTypes: true, font: "system-ui, DejaVu Sans, sans-seri
 const drawn = {};
 
 /**
- * A copy in which strings such as "constructor", the name of a member that every object has, end with an
- * invisible character. Vega-Lite would drop these strings from the domain of a scale.
+ * A copy of a value, in which an invisible character is appended to strings such as "constructor", which are
+ * names of members that every object has. Vega-Lite would drop such strings from the domain of a scale.
  */
 function withoutMembers(value) {
   if (typeof value === "string") return value in {} ? `${value}\u200b` : value;
@@ -40,8 +41,8 @@ function withoutMembers(value) {
 }
 
 /**
- * Draws a chart in place of an earlier one. The page's content security policy forbids code from strings, so
- * Vega interprets its expressions instead of compiling them.
+ * Draws a chart, which replaces an earlier chart in the same place. The page's content security policy
+ * forbids code from strings, so Vega interprets its expressions instead of compiling them.
  */
 async function draw(id, description, spec) {
   const node = element(id);

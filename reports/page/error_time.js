@@ -15,15 +15,15 @@ function drawErrorTime() {
 }
 
 /**
- * The position of a value on a logarithmic axis: 0 at one end, 1 at the other. Takes logarithms before it
- * divides, because the ratio of the ends may overflow.
+ * The position of a value on a logarithmic axis: 0 at one end, 1 at the other. Takes the logarithms of both
+ * ends separately, because the ratio of the ends may overflow.
  */
 const partOfAxis = (value, [from, to]) => (Math.log(value) - Math.log(from)) / (Math.log(to) - Math.log(from));
 const atPartOfAxis = (part, [from, to]) => Math.exp((1 - part) * Math.log(from) + part * Math.log(to));
 
 /**
  * Layers that write the names of points into a chart with logarithmic axes. A line joins a point to its name
- * unless the name is right beside it.
+ * unless the name is right beside the point.
  * @param rows [{subject, x, y, rank}]
  * @param x, y the chart's channels in Vega-Lite
  */
@@ -39,7 +39,9 @@ function nameLayers(rows, x, y, [width, height]) {
   return [lines, text({ stroke: color("--paper"), strokeWidth: 3 }), text({ color: color("--ink") })];
 }
 
-/** Draws a mark with a name for each subject. Only the subjects chosen in the picker have their own colours. */
+/**
+ * Draws a mark with a name for each subject. Only the subjects chosen in the picker have their own colours.
+ */
 function drawErrorTimeOfEach() {
   const { subjects, front_by_distance, front_by_rate } = report.error_against_time;
   const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each,
@@ -94,8 +96,8 @@ const labelSize = 10;
 const isEmulated = (row) => /^p\d/.test(row.scalar);
 
 /**
- * Divides points into lines, one for each algorithm and sort of scalars (the machine's or emulated), and
- * orders the points of each line by the number of digits of their scalars.
+ * Divides points into lines, and orders the points of each line by the number of digits of their scalars. An
+ * algorithm has one line for scalars of the machine, and one line for emulated scalars.
  */
 function makeStrands(rows) {
   const strands = new Map();
@@ -110,8 +112,8 @@ function makeStrands(rows) {
 }
 
 /**
- * Places for a label of this size, relative to its point, in the order in which they are tried: beside the
- * point, then up to `reach` pixels away from it.
+ * Places for a label of this size, relative to the label's point, in the order in which they are tried: first
+ * beside the point, then at growing distances of up to `reach` pixels.
  */
 function* placesAround([w, h], reach) {
   yield* [[6, -h / 2], [-6 - w, -h / 2], [-w / 2, -6 - h], [-w / 2, 6], [5, -4 - h], [5, 4], [-5 - w, -4 - h], [-5 - w, 4]];
@@ -151,7 +153,7 @@ function placedLabels(points, [width, height], reach = 0) {
   return placed;
 }
 
-/** Draws a line for each algorithm and sort of scalars; some points are labelled with their scalars. */
+/** Draws lines (makeStrands), and writes the names of scalars beside some of the points. */
 function drawErrorTimeOfLadder() {
   const { subjects, ladder, front_by_rate } = report.error_against_time;
   const rows = Object.entries(subjects).map(([subject, each]) => ({ subject, ...each }));

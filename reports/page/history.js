@@ -5,7 +5,7 @@
 const { nights, ways_to_fail: ways } = JSON.parse(element("history").textContent);
 const latest = nights.at(-1);
 
-/** A night's name, as a link to the night's report if it has one. */
+/** A night's name. If the night has a report, the name is a link to the report. */
 const link = (night) => (night.page ? made("a", night.name, { href: `./${night.page.split("/").map(encodeURIComponent).join("/")}` }) : night.name);
 const verdictOf = (night) => (!night.page ? "no report" : night.clean ? "ok" : "FAIL");
 
@@ -38,7 +38,7 @@ function drawNights() {
 
 /**
  * The nightly campaigns that put `subject` on trial, each with the subject's counts of that night. `is_other`
- * says whether the subject's code has changed since the previous one of these campaigns.
+ * says whether the subject's code has changed since the previous campaign in this list.
  */
 function nightsOf(subject) {
   const asked = nights.map((night, index) => ({ index, night, of: night.subjects[subject] })).filter(({ night }) => Object.hasOwn(night.subjects, subject));

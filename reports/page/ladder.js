@@ -8,8 +8,8 @@ const partsOfClaimed = (fit) => `${fraction(fit.least_part_of_claimed)}–${frac
 const exponent = (fit) => `${fit.exponent.toFixed(4)} ± ${Number(fit.half_width_95.toPrecision(2))}`;
 
 /**
- * The text of a fit. If the farthest false positives almost reach the claimed distances, the text says so,
- * because the fit then only restates the formula of the claim.
+ * The text of a fit. If the farthest false positives almost reach the claimed distances, the text says only
+ * that, because the fit then only restates the formula of the claim.
  */
 const fitText = (fit) => `${fit.algorithm}: ` + (fit.restates_the_bound
   ? `the farthest are at ${partsOfClaimed(fit)} of the claimed distance`

@@ -3,8 +3,8 @@
 "use strict";
 
 /**
- * Colours of marked primitives: a list of bits with their meaning and a colour. A primitive has the colour of
- * the first entry that has a bit in common with the primitive's mark.
+ * The colours of marked primitives, as a list. An entry has the bits of a mark, their meaning, and a colour.
+ * A primitive gets the colour of the first entry that has a bit in common with the primitive's mark.
  */
 function markColours(meanings, subject) {
   const bit = (meaning) => (meanings.includes(meaning) ? 1 << meanings.indexOf(meaning) : 0);
@@ -29,7 +29,7 @@ function primitivesOf(picture) {
 }
 
 /**
- * A picture in the form that drawMesh needs.
+ * Converts a picture to the form that drawMesh needs.
  * @param picture an entry of report.pictures; reports/campaign/scene_picture.hpp describes its format
  */
 function readPicture(picture) {
@@ -66,7 +66,10 @@ function drawMesh(entries) {
   const legend = made("div", [], { class: "mesh-legend" });
   const title = made("span");
 
-  /** The positions of all points on the screen at the view's time: x, y, and depth away from the eye. */
+  /**
+   * The positions of all points at the view's time: x and y on the screen, and the depth, which grows away
+   * from the eye.
+   */
   function seen([width, height]) {
     const { points, middle } = view.picture;
     const count = points.length / 6;
@@ -166,7 +169,10 @@ function drawMesh(entries) {
     change({ picture, subject, focus: undefined });
   }
   step.addEventListener("change", () => choose(pictures[step.value]));
-  /** Shows the next miss of this picture or, after the last miss, the first miss of the next picture with misses. */
+  /**
+   * Shows the next miss of this picture. After the last miss, shows the first miss of the next picture that
+   * has misses.
+   */
   function showNextMiss() {
     const misses = missesOf(view.picture, view.subject);
     const after = misses.indexOf(view.focus) + 1;

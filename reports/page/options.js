@@ -2,8 +2,8 @@
 "use strict";
 
 /**
- * For each chart of an option: the field that the chart shows, the chart's title, and the format of its
- * numbers, which is left out if it is the usual one (logAxis).
+ * For each chart of an option: the field that the chart shows, the chart's title, and the format of the
+ * chart's numbers. Without a format, the chart has the usual format of logAxis.
  */
 const optionCharts = [
   ["false_negative_rate", "missed, among collisions", "share(datum.value)"],

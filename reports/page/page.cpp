@@ -59,7 +59,7 @@ void replace(std::string& text, std::string_view what, const std::string& by) {
   text.replace(text.find(what), what.size(), by);
 }
 
-/// A random word (nonce). The page's content security policy lets only scripts with this word run.
+/// A random word (nonce). By the page's content security policy, only scripts with this word run.
 std::string make_nonce() {
   std::random_device random;
   std::string nonce;
@@ -67,8 +67,8 @@ std::string make_nonce() {
   return nonce;
 }
 
-/// JSON for a script element, with "<" escaped: a browser would take "</script" in a string for the
-/// element's end.
+/// JSON for a script element, with "<" escaped, because a browser would take "</script" in a string for the
+/// end of the element.
 std::string inside_script(const nlohmann::ordered_json& json) {
   std::string text;
   for (const char c : json_text(json)) {
@@ -80,8 +80,8 @@ std::string inside_script(const nlohmann::ordered_json& json) {
   return text;
 }
 
-/// A page with this HTML as its body, with JSON in an element with the id `data`, and with the scripts in
-/// `files`, which draw the JSON.
+/// A page whose body is the HTML in `body`. The page has the JSON in an element with the id `data`, and the
+/// scripts in `files`, which draw the JSON.
 std::string page_of(std::string_view body, const char* data, const nlohmann::ordered_json& json,
                     std::initializer_list<std::string_view> files) {
   const std::string nonce = make_nonce();

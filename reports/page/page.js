@@ -115,7 +115,7 @@ const noAnswer = {
 };
 const timing = (title, field) => ({ title, number: (r) => r.times[field] ?? -1, text: (r) => short(r.times[field]) });
 
-/** The farthest of some false positives; undefined if the list is empty. */
+/** The farthest of the false positives in a list; undefined if the list is empty. */
 const farthestAmong = (some) => some.reduce((a, b) => (a && a.ratio >= b.ratio ? a : b), undefined);
 const farthestOfSubject = (subject) => farthestAmong(report.farthest.filter((far) => far.subject === subject));
 /** The farthest false positive of a subject and kind, in one family, in one class or in all families. */
@@ -161,8 +161,8 @@ function drawSlowest() {
 }
 
 /**
- * Some subjects pass a query on to another stage if they are not sure. Draws how many queries of these
- * subjects each stage decided.
+ * Draws a table for subjects that pass a query on to another stage if they are not sure. The table shows how
+ * many queries each stage decided.
  */
 function drawDeciders() {
   const rows = report.deciders;
@@ -348,7 +348,10 @@ async function drawOne([id, chart]) {
 
 let calls = 0;
 let drawing = Promise.resolve();
-/** Draws charts after those of earlier calls. Skips these charts if another call comes before they are drawn. */
+/**
+ * Draws charts after those of earlier calls. If another call comes before these charts are drawn, they are
+ * skipped.
+ */
 function drawCharts(some) {
   const call = ++calls;
   document.body.removeAttribute("data-drawn");

@@ -1,5 +1,5 @@
-// If there are many subjects, lets the reader choose those that have a row, a line or a colour of their own
-// in the charts. At first, as many subjects are chosen as there are colours.
+// If there are many subjects, lets the reader choose subjects. In the charts, each chosen subject has its own
+// row, line or colour. At first, as many subjects are chosen as there are colours.
 "use strict";
 
 const subjectNames = Object.keys(report.subjects);
@@ -7,8 +7,8 @@ const fewSubjects = 8;
 const hasPicker = subjectNames.length > fewSubjects;
 
 /**
- * Subjects in the order of their names or, if there are many, grouped by algorithm, and sorted within a group
- * by the number of digits of their scalars.
+ * The subjects, in the order of their names. If there are many, they are grouped by algorithm instead, and
+ * within a group sorted by the number of digits of their scalars.
  */
 const places = report.verdicts.map((each) => ({ ...each, isAlone: report.verdicts.every((other) => other === each || other.algorithm !== each.algorithm) }));
 if (hasPicker) places.sort((a, b) => a.isAlone - b.isAlone || (a.algorithm < b.algorithm ? -1 : a.algorithm > b.algorithm ? 1 : b.epsilon - a.epsilon));
@@ -68,7 +68,7 @@ function chosenColor(others) {
     legend: { columns: Math.max(1, Math.min(8, columns)) } };
 }
 
-/** Draws the picker. @param redraw is called after each change */
+/** Draws the picker. After each change, the picker calls `redraw`. */
 function drawPicker(redraw) {
   show("picker");
   const boxes = new Map();

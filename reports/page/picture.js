@@ -1,8 +1,8 @@
-// Draws a query: both primitives at one time, and the paths of their vertices. Also draws the primitives in
-// pale colours, at both ends of the step and at the time that a subject gave.
+// Draws a query: the two primitives at one time, and the paths of their vertices. The two primitives are also
+// drawn in pale colours at both ends of the step, and at the time that a subject gave.
 "use strict";
 
-/** The two primitives of each kind as lists of vertices, and a caption that names them. */
+/** For each kind, the two primitives as lists of vertices, and a caption that names the primitives. */
 const shapes = {
   vt: { primitives: [[0], [1, 2, 3]], caption: "A vertex and a triangle" },
   ee: { primitives: [[0, 1], [2, 3]], caption: "Two edges" },
@@ -24,8 +24,8 @@ const cross = (a, b) => [0, 1, 2].map((k) => a[(k + 1) % 3] * b[(k + 2) % 3] - a
 
 /**
  * A query whose coordinates are moved and scaled into [-1, 1]. The function `at` returns the scaled places of
- * the vertices at the time t of the query's step. With a second argument, another step of the same vertices,
- * it returns their places at the time t of that step. `unit` is the length that is scaled to 1.
+ * the vertices at the time t of the query's step. If another step of the same vertices is passed as second
+ * argument, `at` returns their places at the time t of that step. `unit` is the length that is scaled to 1.
  */
 function scaledQuery(query) {
   const x = query.slice(0, query.length - (query.length % 6));
@@ -53,7 +53,10 @@ function closestPoint(kind, [x0, x1, x2, x3]) {
   return along(x0, x1, inside((dot(d, e) * u - dot(d, r)) / dot(d, d)));
 }
 
-/** The part of a polygon inside a square. Browsers draw points far outside of the picture inexactly. */
+/**
+ * The part of a polygon inside a square. Polygons are clipped because browsers draw points far outside of the
+ * picture inexactly.
+ */
 function clipped(points, low, high) {
   for (const [k, border, sign] of [[0, low, 1], [0, high, -1], [1, low, 1], [1, high, -1]]) {
     const isInside = (p) => sign * (p[k] - border) >= 0;
@@ -71,7 +74,8 @@ function clipped(points, low, high) {
  * subject gave for t*, step: the rounded step from 0 to toi, if this step has contact}; toi and step may be
  * missing
  * @param size [width, height]
- * @returns {svg, draw(view)}; a view has {yaw, pitch, zoom, time, isLabelled, normal: the normal of a plane between the primitives}
+ * @returns {svg, draw(view)}; a view has {yaw, pitch, zoom, time, isLabelled, normal: the normal of a plane
+ * between the primitives}
  */
 function makePicture({ kind, query, time, toi, step }, [width, height]) {
   const { primitives, caption } = shapes[kind];
@@ -86,8 +90,8 @@ function makePicture({ kind, query, time, toi, step }, [width, height]) {
   function draw({ yaw, pitch, zoom, time: now, isLabelled, normal }) {
     const far = 3 * width;
     /**
-     * The place of a point on the screen, in parallel projection. Zooming in moves the contact to the middle
-     * of the picture.
+     * The place of a point on the screen, by parallel projection. When the user zooms in, the contact moves
+     * to the middle of the picture.
      */
     const seen = (point) => {
       const [px, py, pz] = point.map((c, k) => zoom * (c - contact[k]) + (zoom > 1 ? 1 / zoom : zoom) * contact[k]);
@@ -123,7 +127,7 @@ function makePicture({ kind, query, time, toi, step }, [width, height]) {
   return { svg, draw };
 }
 
-/** A square in the plane that has this normal and is halfway between the vertices of the two primitives. */
+/** A square in a plane with this normal. The plane is halfway between the vertices of the two primitives. */
 function planeBetween(points, normal) {
   const least = Math.min(...points[0].map((p) => dot(normal, p)));
   const most = Math.max(...points[1].map((p) => dot(normal, p)));
@@ -137,8 +141,8 @@ function planeBetween(points, normal) {
 }
 
 /**
- * Lines of the legend: the separation, the exact earliest time t*, the subject's time, and the committed
- * step, if the query has them.
+ * The lines of the legend: the separation, the exact earliest time t*, the subject's time, and the committed
+ * step. A line is left out if the query does not have it.
  */
 function pictureLegend({ query, time, toi, step }) {
   const line = (name, content) => made("div", [made("span", "", { class: `swatch ${name}` }), ` ${content}`]);

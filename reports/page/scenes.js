@@ -5,7 +5,7 @@ const isStep = (family) => family.startsWith("scene:") && !isSimulation(family);
 const sceneOf = (step) => step.replace(/^scene:/, "").replace(/#\d+$/, "");
 const stepNumber = (step) => Number(step.match(/#(\d+)$/)?.[1] ?? 0);
 
-/** Groups rows that have equal values in the fields `by`, and adds up their numbers. */
+/** Groups rows with equal values in the fields `by`, and adds up the numbers of the rows in each group. */
 function summed(rows, by) {
   const sums = new Map();
   for (const row of rows) {
@@ -19,7 +19,10 @@ function summed(rows, by) {
   return [...sums.values()];
 }
 
-/** The number of pairs with each PairFate (asked, or why they were left out), for each step and kind. */
+/**
+ * For each step and kind, the number of pairs with each PairFate, which says whether a pair was asked, or why
+ * it was left out.
+ */
 const funnelRows = () => Object.entries(report.scenes ?? {}).flatMap(([step, ofKind]) =>
   Object.entries(ofKind).map(([kind, { times, ...funnel }]) =>
     ({ scene: sceneOf(step), step: stepNumber(step), kind, ...funnel, ...times })));

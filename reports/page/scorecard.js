@@ -6,7 +6,7 @@ const missedByKind = (subject, name) => Object.entries(report.subjects[subject])
   .filter(([, counts]) => counts?.collisions > 0)
   .map(([kind, counts]) => `${kind} ${integer(counts.false_negatives)} of ${integer(counts.collisions)}`).join(", ");
 
-/** The text with powers of two, such as 2^-9, typeset with a superscript. */
+/** The text, in which powers of two, such as 2^-9, are typeset with a superscript. */
 const withPowers = (text) => text.split(/(2\^-?\d+)/).flatMap((part, i) => (i % 2 === 0 ? part : ["2", made("sup", part.slice(2).replace("-", "−"))]));
 
 /** The edge lengths and the distances from the origin at which the subject is right. */
@@ -19,7 +19,10 @@ const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject 
   return [note];
 });
 
-/** The misses: those of the least exotic class by kind, then the rates of the other classes, then the sum. */
+/**
+ * The cell about misses. If there are misses, it shows those of the least exotic class for each kind, then
+ * the rates of the other classes, then the sum. Otherwise it shows the sum, then the rates of all classes.
+ */
 const missedCell = ({ counts, classes, subject, failures }) => {
   if (failures.includes("unjudged")) return [made("strong", "not asked", { class: "bad" })];
   if (counts.collisions === 0) return ["no collision"];
@@ -44,7 +47,7 @@ const falseCell = ({ counts, subject }) => {
 
 /**
  * The number of queries without an answer, with the reasons as a tooltip. Slow queries, and queries that a
- * contract excludes, are no failures.
+ * contract excludes, do not count as failures.
  */
 function noAnswerCell(verdict) {
   const reasons = [...new Set(Object.keys(verdict.faults).map((why) => (["time", "not-asked"].includes(why) ? "slow" : why)))];
@@ -63,10 +66,13 @@ const barScale = (() => {
   return (ns) => `${(100 * Math.log(ns / least)) / Math.log(most / least)}%`;
 })();
 
-/** The median time of queries that were timed one by one; if no query was, the time of batches. */
+/**
+ * The median time of the queries that were timed one by one; if there are none, the time per query of
+ * batches.
+ */
 const usualTime = ({ counts, times }) => times.median_ns ?? counts.ns_per_query;
 
-/** The usual time, and the 99 % quantile of queries that were timed one by one. */
+/** The usual time of a query, and the 99 % quantile of the queries that were timed one by one. */
 const timeCell = (verdict) => {
   const { median_ns: median, q99_ns: q99 } = verdict.times;
   const usual = usualTime(verdict);
@@ -128,9 +134,9 @@ function inOrder(verdicts) {
 const isGood = ({ clean, beyond_contract: isBeyond }) => clean && !isBeyond;
 
 /**
- * The rows of clean subjects that are folded into one row. These are the clean subjects on the precision
- * ladder (one algorithm in several scalar types) or, if too many other clean subjects would remain, all clean
- * subjects. Nothing is folded if there are few clean subjects.
+ * The rows of clean subjects that are folded into one row. The folded subjects are the clean subjects on the
+ * precision ladder (one algorithm in several scalar types). If too many other clean subjects would remain,
+ * all clean subjects are folded. Nothing is folded if there are few clean subjects.
  */
 function foldedRows(rows) {
   const good = rows.filter(isGood);
@@ -175,8 +181,8 @@ function drawScorecard() {
 }
 
 /**
- * Draws each pair of versions of a CCD: on how many queries each version fails, and the first query that the
- * later version breaks.
+ * Draws a table with the pairs of versions of a CCD, which shows on how many queries each version fails.
+ * Below the table, links to the simplest query that the later version breaks.
  */
 function drawVersions() {
   if (!report.versions) return;

@@ -10,7 +10,7 @@ const simulatedSteps = () => Object.entries(report.simulations ?? {}).flatMap(([
     scene: simulationName(family), subject, ...Object.fromEntries(Object.entries(lists).map(([name, list]) => [name, list[i]])),
   }))));
 
-/** One row for each simulation: sums over its steps, its tangles and its energy. */
+/** One row for each simulation and subject: sums over the steps, the tangles, and the energy. */
 function simulations() {
   const all = new Map();
   for (const step of simulatedSteps()) {

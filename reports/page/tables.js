@@ -17,8 +17,9 @@ const short = (x) =>
 /** "1 query", "1,234 queries" */
 const counted = (n, one, many) => `${integer(n)} ${n === 1 ? one : many}`;
 /**
- * Formats a ratio with three digits, or with more if a ratio below 1 would be rounded to 1. If a ratio is in
- * the lowest bin of the histogram, says only that it is below the bin's upper border.
+ * Formats a ratio with three digits, or with more digits if three digits would round a ratio below 1 to 1. If
+ * the ratio is in the lowest bin of the histogram, the text says only that it is below the bin's upper
+ * border.
  */
 function fraction(x) {
   const lowest = report.histogram_borders[1];
@@ -55,7 +56,7 @@ const small = (content) => made("div", content, { class: "small" });
 /** "14.8 % (14.4–15.2 %)", or without the interval if the queries are no random sample. */
 const rateText = (rate, interval) => percent(rate) + (interval ? ` (${percentRange(interval)})` : "");
 
-/** "4,576 of 30,998"; without a miss, also the upper confidence bound of the rate of misses. */
+/** "4,576 of 30,998". If there are no misses, the upper confidence bound of the rate of misses follows. */
 function missedText(counts) {
   const seen = `${integer(counts.false_negatives)} of ${integer(counts.collisions)}`;
   if (counts.false_negatives > 0 || counts.collisions === 0 || counts.false_negative_rate_upper_95 === null) return seen;
@@ -137,8 +138,8 @@ const command = (content) => made("div", [made("code", content), copyButton(cont
 const copyQuery = (x) => copyButton(x.join(" "));
 
 /**
- * A query in lines: for each vertex its place at t = 0, and at t = 1 if it moves; then the separation if the
- * query has one.
+ * A query as text, with a line for each vertex. The line has the vertex's place at t = 0 and, if the vertex
+ * moves, its place at t = 1. The separation follows if the query has one.
  */
 function queryText(x) {
   const point = (i) => `(${x.slice(3 * i, 3 * i + 3).join(", ")})`;

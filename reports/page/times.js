@@ -90,9 +90,9 @@ function drawTimes() {
 // --- histograms -----------------------------------------------------------------------------------
 
 /**
- * The two histograms of a subject and kind, joined into one from the earliest time to the latest. Bin i of
- * the times before t* (the exact earliest time) is at place -i, and bin i of the times after t* is at place
- * i.
+ * Joins the two histograms of a subject and kind into one histogram, from the earliest time to the latest.
+ * Bin i of the times before t* (the exact earliest time) is at place -i, and bin i of the times after t* is
+ * at place i.
  */
 function binsOfErrors(row) {
   const { early_histogram: early, after_histogram: after } = row;
@@ -139,8 +139,8 @@ function drawTimeErrors() {
     },
   });
   const kinds = kindNames.filter((kind) => rows.some((row) => row.kind === kind));
-  // If a subject was not asked about a kind, that kind gets an empty strip, so that each strip stands beside
-  // its subject's name.
+  // A subject that was not asked about a kind gets an empty strip for this kind, so that each strip stands
+  // beside its subject's name.
   const empty = kinds.flatMap((kind) => names.map((subject) => ({ subject, kind, place: 0, count: 0 })));
   const values = [...all.filter((bin) => isChosen(bin) && bin.place >= first && bin.place <= last),
     ...empty.filter(({ subject, kind }) => !rows.some((row) => row.subject === subject && row.kind === kind))]

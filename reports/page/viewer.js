@@ -12,8 +12,8 @@ function certificateNumber(text) {
 }
 
 /**
- * A function of the time. At a time at which a certificate puts a plane between the primitives, the function
- * returns the plane's unit normal, otherwise undefined.
+ * Returns a function of the time. If the certificate puts a plane between the primitives at a time, the
+ * function returns the plane's unit normal at this time; otherwise it returns undefined.
  */
 function normalOf(certificate) {
   const { times, normals } = certificate ? JSON.parse(certificate) : {};
@@ -30,9 +30,10 @@ function normalOf(certificate) {
 }
 
 /**
- * The values that plots show for given places of a query's vertices. For vt and ee: F, the volume that the
- * vertices span, which is 0 when they are coplanar. For vv and ve: the distance of the closest points. For
- * all kinds except vv: the barycentric weights multiplied by `norm`.
+ * For each kind, a function that computes the values in the plots from the places of a query's vertices. For
+ * vt and ee, it returns F, the volume that the vertices span, which is 0 if they are coplanar. For vv and ve,
+ * it returns the distance of the closest points. For all kinds except vv, it also returns the barycentric
+ * weights, multiplied by `norm`.
  */
 const curves = {
   vt: ([x0, x1, x2, x3]) => {
@@ -119,8 +120,8 @@ function makeViewer(shown) {
   const now = made("output");
   const play = made("button", "play", { type: "button" });
   /**
-   * The span of time that the slider covers. It surrounds the time of the contact (without contact, that of
-   * the smallest distance), and becomes shorter when the user zooms in.
+   * The span of time that the slider covers. The span surrounds the time of the contact or, if there is no
+   * contact, the time of the smallest distance. It becomes shorter when the user zooms in.
    */
   const span = () => [Math.max(0, shown.time - 1 / view.zoom), Math.min(1, shown.time + 1 / view.zoom)];
 

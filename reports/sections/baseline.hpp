@@ -17,7 +17,7 @@
 
 namespace nearmiss {
 
-/// Which code of a subject ran. If runs had different code, the values of all runs are joined with " | ".
+/// Says which code of a subject ran. If the runs had different code, " | " joins the values of all runs.
 struct SubjectCode {
   /// The version of the plug-in or, for a built-in subject or the oracle, of nearmiss; "" if there is none.
   std::string version;
@@ -44,19 +44,20 @@ struct Sightings {
 };
 
 struct ChangedSignatures {
-  /// Ways to fail that are new, or more frequent than chance explains, in the order of Signature.
+  /// Signatures (ways to fail) that are new, or that are more frequent now than chance explains, in the order
+  /// of Signature.
   std::vector<Signature> new_signatures = {};
   /// Signatures that the baseline does not have, but that do not count as new, because chance explains them.
-  /// They are rare, and their subject already has failures of the same sort in the baseline.
+  /// Such a signature is rare, and its subject already has failures of the same sort in the baseline.
   std::vector<Signature> unseen_signatures = {};
   /// the expected number of unseen signatures if nothing has changed since the baseline
   double expected_unseen = 0;
-  /// Signatures that only the baseline has, if chance hardly explains that they are absent now.
+  /// Signatures that only the baseline has, and whose absence from the campaign chance hardly explains.
   std::vector<Signature> gone_signatures = {};
   /// For each gone signature whose subject's code has changed since the signature was last seen: "in version
   /// 2", or "since sha256 0123456789ab".
   std::map<Signature, std::string> fixed = {};
-  /// Signatures that only the baseline has, if chance may explain that they are absent now.
+  /// Signatures that only the baseline has, and whose absence from the campaign chance may explain.
   std::vector<Signature> unrepeated_signatures = {};
   /// Signatures that the baseline also has, and that are no more frequent now than chance explains.
   std::vector<Signature> lasting_signatures = {};
@@ -70,31 +71,34 @@ struct ChangedSignatures {
 ///
 /// If a subject has no failure of a sort (Finding::What) in the baseline, each failure of that sort is new. A
 /// failure of the oracle that the baseline does not have is always new. A subject that already fails in the
-/// baseline shows a few unseen signatures in every campaign. Therefore a signature of such a subject is new
-/// only if Fisher's exact test finds it more frequent among the subject's queries than chance explains. A
-/// signature that is no longer seen is gone if the same test finds it less frequent than chance explains, or
-/// if the subject has no failure of that sort any more and the test finds all failures of the sort together
-/// less frequent.
+/// baseline shows a few unseen signatures in every campaign. Therefore a signature of such a subject is
+/// called new only if, by Fisher's exact test, it is more frequent among the subject's queries than chance
+/// explains. A signature that only the baseline has is called gone in two cases. In the first case, chance
+/// does not explain, by the same test, that the campaign lacks the signature. In the second case, the
+/// campaign lacks all signatures of that sort and subject, and chance does not explain the absence of all of
+/// them together.
 ///
-/// For a new signature, the test compares the campaign both with the whole baseline and with a part of the
-/// baseline. This part leaves out the campaigns in which the signature was rarer, by more than chance
-/// explains, than in the last campaign of the baseline. Therefore campaigns in which a fault was absent do
-/// not make the fault new again.
+/// If the subject already fails in the baseline, a signature is called new only if the test finds it more
+/// frequent in two comparisons of the campaign: with the whole baseline, and with a part of the baseline.
+/// This part leaves out the campaigns in which the signature was rarer, by more than chance explains, than in
+/// the last campaign of the baseline. Therefore campaigns in which a fault was absent do not make the fault
+/// new again.
 ///
 /// The steps of a sweep (a family with different values of its parameter) share their random draws, so the
 /// queries of a campaign with sweeps are not independent samples. Therefore the test counts draws instead of
-/// queries. It takes the smallest number of draws that could have made the queries.
+/// queries. It assumes the smallest number of draws that could have made the queries.
 ///
-/// The test needs the ratio of the numbers of queries now and before. Campaigns that a time limit ended have
-/// different ratios for different families, and the families in which a signature was seen are not recorded.
-/// Therefore the test takes the ratio that makes its result least certain: the largest ratio for a signature
-/// that may be new, the smallest ratio for a signature that may be gone. Failures in cases and meshes are no
-/// evidence that a signature is gone, because those cases and meshes may not have been asked again.
+/// The test needs the number of queries now, divided by the number of queries before. If a time limit ended a
+/// campaign, this ratio is different for different families, and the store does not say in which families a
+/// signature was seen. Therefore the test takes the ratio that makes its result least certain: the largest
+/// ratio for a signature that may be new, the smallest ratio for a signature that may be gone. Failures in
+/// cases and meshes are no evidence that a signature is gone, because those cases and meshes may not have
+/// been asked again.
 ///
 /// @param before the sum of the baseline's statistics
-/// @param risk the probability that at least one signature is called new if none is new. The probability that
-/// at least one signature is called gone if none is gone is the same. Each comparison has an equal part of
-/// this risk (Bonferroni).
+/// @param risk the probability that at least one signature is called new although none is new. With the same
+/// probability, at least one signature is called gone although none is gone. Each comparison has an equal
+/// part of this risk (Bonferroni).
 ChangedSignatures compare_signatures(const Campaign& now, std::span<const Campaign> baseline,
                                      const Statistics& before, double risk);
 
@@ -117,14 +121,14 @@ struct ComparedRates {
 
 /// Compares, by Fisher's exact test, the rates of all families that both a campaign and its baseline have.
 /// The earlier rate is computed from the last campaign of the baseline, and from those campaigns whose rate
-/// differs from that of the last campaign by no more than chance explains (for the reason given for
-/// compare_signatures). A new way to fail may be spread over many families. To notice it, the function also
-/// adds up, for each subject, the rates of those families and kinds that have few failures in the campaign
-/// and its baseline together, and compares these sums. The steps of a sweep share their random draws, so a
-/// sum includes only the sweep's step with the most failures. Cases and meshes are left out, because they are
-/// no random samples.
+/// differs from the last campaign's rate by no more than chance explains. Therefore campaigns in which a
+/// fault was absent do not make the fault new again. A new way to fail may be spread over many families, each
+/// with few failures. To notice such a way to fail, the function also selects, for each subject and rate, the
+/// families and kinds that have few failures in the campaign and its baseline together, and compares the sums
+/// over these families and kinds. The steps of a sweep share their random draws, so a sum includes only the
+/// sweep's step with the most failures. Cases and meshes are left out, because they are not random samples.
 ///
-/// @param risk the probability that at least one rate is reported as changed if none has changed; each
+/// @param risk the probability that at least one rate is reported as changed although none has changed; each
 /// comparison has an equal part of this risk (Bonferroni)
 ComparedRates compare_rates(const Statistics& now, std::span<const Campaign> baseline, double risk);
 
@@ -135,7 +139,8 @@ struct ChangedTime {
   std::string subject, kind, family;
   /// The time per query in the baseline, in ns: the geometric mean over the baseline's campaigns.
   double before = 0;
-  /// The time per query that is expected now, in ns: `before` multiplied by the slowdown of everything else.
+  /// The time per query that is expected now, in ns: `before`, multiplied by the factor by which everything
+  /// else has become slower.
   double expected = 0;
   double now = 0;  ///< ns
   /// The probability that the time differs at least this much from `expected` although nothing has changed.
@@ -156,28 +161,30 @@ struct ComparedTimes {
 
 /// Compares the run times of a campaign with those of earlier campaigns on a processor of the same model: the
 /// times of each subject as a whole, and of each of its families and kinds. The time of a family is the
-/// geometric mean over batches, weighted by their numbers of queries. The time of a subject is the geometric
-/// mean over families and kinds.
+/// geometric mean of the times of its batches, weighted by their numbers of queries. The time of a subject is
+/// the geometric mean of the times of its families and kinds.
 ///
 /// A busy machine makes everything slower. Therefore each family is compared with the subject's other
-/// families: the ratio of its time to its earlier time is divided by the median of this ratio over the
-/// subject's families. A subject as a whole is compared with the other subjects: its median ratio is divided
-/// by the machine's ratio. The machine's ratio is the median of a list that has the median ratio of each
-/// subject, and the number 1. If a subject has only a few families, the ratio of each of its families is
-/// divided by the machine's ratio instead.
+/// families. Let the ratio of a family be its time now, divided by its earlier time, and let the ratio of a
+/// subject be the median of the ratios of its families. The ratio of each family is divided by the ratio of
+/// its subject. Likewise, a subject as a whole is compared with the other subjects: the ratio of the subject
+/// is divided by the machine's ratio, which is the median of the ratios of all subjects and the number 1. If
+/// a subject has only a few families, the ratios of these families are divided by the machine's ratio instead
+/// of the subject's.
 ///
-/// Welch's test compares the remaining change with its spread. The variance of the change's logarithm has two
-/// parts. One part follows from the spread among batches. The other part is estimated from the spread among
-/// the subject's families, most of which have not changed; it is an assumed value for a subject as a whole,
-/// and for the families of a subject that has only a few. If there are several earlier campaigns, the
-/// variance is at least the variance between these campaigns.
+/// The quotient is the change that remains. Welch's test compares the logarithm of this change with its
+/// standard deviation. The variance of the logarithm has two parts. One part follows from the spread among
+/// batches. The other part is estimated from the spread among the subject's families, most of which have not
+/// changed; it is an assumed value for a subject as a whole, and for the families of a subject that has only
+/// a few. If there are several earlier campaigns, the variance is at least the variance between these
+/// campaigns.
 ///
-/// @param risk the probability that at least one time is reported as changed if none has changed; each
+/// @param risk the probability that at least one time is reported as changed although none has changed; each
 /// comparison has an equal part of this risk (Bonferroni)
 ComparedTimes compare_times(const Campaign& now, std::span<const Campaign> baseline, double risk);
 
-/// A fact that differs between the runs of the baseline and of the campaign. `before` has all values of the
-/// fact in the baseline, and `now` those in the campaign, joined with " | ".
+/// A fact that differs between the runs of the baseline and the runs of the campaign. `before` has all values
+/// of the fact in the baseline, and `now` those in the campaign, joined with " | ".
 struct ChangedFact {
   std::string name, before, now;
 };
@@ -193,9 +200,9 @@ struct Changes : ChangedSignatures {
   Campaign baseline = {};  ///< the sum of the earlier campaigns
 };
 
-/// The probability that `changes` reports a changed rate although no rate has changed. The probability is
-/// the same for each other sort of false report: a new way to fail, a way to fail that is gone, and a
-/// changed run time.
+/// The probability that `changes` reports a changed rate although no rate has changed. The same probability
+/// holds for each other sort of false report: a new way to fail, a way to fail that is gone, and a changed
+/// run time.
 inline constexpr double false_alarm_risk = 1e-3;
 
 /// Adds up campaigns to serve as a baseline. The campaigns may have asked the same cases and meshes. Throws
@@ -213,8 +220,8 @@ Changes changes(const Campaign& now, const Campaign& baseline);
 std::vector<std::string> lines_for_the_worse(const Changes& changes,
                                              const Failures& failing = usual_failures());
 
-/// A line for each subject and sort of change or, if `verbose`, a line for each single change. Returns "" if
-/// nothing has changed since the baseline.
+/// A text with a line for each subject and sort of change or, if `verbose`, with a line for each change.
+/// Returns "" if nothing has changed since the baseline.
 std::string describe(const Changes& changes, bool verbose = false);
 
 nlohmann::ordered_json changes_json(const Changes& changes);

@@ -19,7 +19,7 @@ namespace {
 constexpr std::string_view beyond_the_bound = "false positives beyond the bound";
 constexpr std::string_view beyond_wangs_bound = "false positives beyond wang's bound (no claim)";
 
-/// The rates of one subject, kind and family. Each rate is compared between campaigns.
+/// The rates of one subject, kind and family that are compared with those of other campaigns.
 std::vector<std::pair<std::string_view, Proportion>> rates_of(const Counts& counts) {
   return {{"false negatives", {counts.false_negatives, counts.collisions}},
           {"false positives", {counts.false_positives, counts.others()}},
@@ -37,7 +37,7 @@ Proportion like_the_last(const std::vector<Proportion>& all, double risk) {
   return sum;
 }
 
-/// All rates that both a campaign and its baseline have, whether they have changed or not.
+/// All rates that a campaign and its baseline have in common, whether the rates have changed or not.
 std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const Campaign> baseline,
                                         double risk) {
   std::vector<ChangedRate> pairs;
@@ -60,25 +60,25 @@ std::vector<ChangedRate> pairs_of_rates(const Statistics& now, std::span<const C
   return pairs;
 }
 
-/// A pair of family and kind counts as one with few failures if it has at most this many failures. There are
-/// three such thresholds, because larger campaigns have more failures; rates_where_few() tries all three.
+/// Thresholds: a pair of a family and a kind has few failures if it has at most this number. There are three
+/// thresholds, because larger campaigns have more failures; rates_where_few() tries all of them.
 constexpr std::array<std::uint64_t, 3> fews{5, 20, 80};
 
 /// A subject and the name of one of its rates.
 using RateName = std::pair<std::string, std::string_view>;
 
-/// The proportions {now, before} of one rate, for several pairs of family and kind. `kinds` has a bit for
-/// each kind in these pairs.
+/// The proportions {now, before} of one rate, for several pairs of a family and a kind. `kinds` has the bits
+/// of the kinds in these pairs.
 struct FewFailures {
   std::vector<std::pair<Proportion, Proportion>> proportions;
   int kinds = 0;
 };
 
-/// For each rate, the pairs of family and kind with 1 to `few` failures in the campaign and its baseline
-/// together. The steps of a sweep (a family with different values of its parameter) share their draws, so
-/// they are not independent samples: only the step with the most failures is included. Selecting pairs by the
-/// sum of both counts favours neither the campaign nor the baseline, so a test of the selected pairs stays
-/// valid.
+/// For each rate, the pairs of a family and a kind that have 1 to `few` failures in the campaign and its
+/// baseline together. The steps of a sweep (a family with different values of its parameter) share their
+/// draws, so they are not independent samples. Therefore only the step with the most failures is included.
+/// Pairs are selected by the sum of the two counts, which favours neither the campaign nor the baseline. So a
+/// test of the selected pairs stays valid.
 std::map<RateName, FewFailures> pairs_with_few(const std::vector<ChangedRate>& pairs, std::uint64_t few) {
   const auto both = [](const ChangedRate& each) { return each.now.count + each.before.count; };
   std::map<RateName, std::map<std::pair<std::string, std::string>, const ChangedRate*>> chosen;

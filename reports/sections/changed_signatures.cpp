@@ -22,9 +22,9 @@ using What = Finding::What;
 /// A sort of failure, and the subject that fails.
 using Sort = std::pair<What, std::string>;
 
-/// The expected number of new signatures in a campaign with `ratio` times as many queries as the baseline.
-/// Uses the series of Good and Toulmin (1956), or only its first term if the campaign is larger than the
-/// baseline. `seen` says how often each known signature was seen in the baseline.
+/// The expected number of signatures that the baseline does not have, in a campaign with `ratio` times as
+/// many queries as the baseline. Uses the series of Good and Toulmin (1956), or only its first term if the
+/// campaign is larger than the baseline. `seen` says how often each known signature was seen in the baseline.
 double expected_unseen(const std::vector<std::uint64_t>& seen, double ratio) {
   double expected = 0;
   for (const std::uint64_t times : seen) {
@@ -84,8 +84,8 @@ std::uint64_t unasked(const Counts& counts) {
   return counts.without_answer(Fault::not_asked) + counts.without_answer(Fault::contract);
 }
 
-/// The number of queries that could have shown a failure of the sort `what`: all asked queries for a fault,
-/// all answered queries for any other sort.
+/// The number of queries that could have shown a failure of the sort `what`. For a fault, these are the
+/// queries that the subject was asked; for any other sort, the queries that it answered.
 std::uint64_t chances(const Counts& counts, What what) {
   return counts.queries - (what == What::fault ? unasked(counts) : counts.faults_total());
 }
@@ -99,16 +99,17 @@ std::uint64_t failures(const Counts& counts, What what) {
   return sum;
 }
 
-/// How many queries could have shown a sort of failure: their number in the baseline (`before`), and the
-/// ratio of their number in the campaign to `before`. The ratio differs between families, and the counters do
-/// not say in which families a signature was seen, so only the range of the ratio is known.
+/// How many queries could have shown a sort of failure: their number in the baseline (`before`), and their
+/// number in the campaign divided by `before`, which is called the ratio. The ratio differs between families,
+/// and the counters do not say in which families a signature was seen, so only the range of the ratio is
+/// known.
 struct Chances {
   std::uint64_t before = 0;  ///< number of random queries in the baseline that could have shown the failure
   double least = HUGE_VAL;   ///< the smallest ratio now / before over the families and kinds of the baseline
   double most = 0;           ///< the largest such ratio
   /// The largest number of queries that share one random draw. The steps of a sweep (a family with different
   /// values of its parameter) share their draws: a failure that was seen 40 times in 20 steps may come from
-  /// two draws. To be safe, the tests count draws and not queries.
+  /// two draws. To be safe, the tests count draws instead of queries.
   std::uint64_t repeats = 1;
 
   [[nodiscard]] bool known() const { return before != 0; }
@@ -236,8 +237,8 @@ void find_gone(const Statistics& now, const Statistics& before, double risk, Cha
   }
 }
 
-/// Names the subject's code that followed the last code with the signature: "in version 2" or "since sha256
-/// 0123456789ab". Returns "" if both codes are the same, or if one of them is not known.
+/// Names the code of the subject that came after the last code with the signature, such as "in version 2" or
+/// "since sha256 0123456789ab". Returns "" if both codes are the same, or if one of them is not known.
 std::string fixed_text(const Sightings& seen, const SubjectCode& now) {
   const SubjectCode& then = seen.last_code;
   const SubjectCode& next = seen.next_code == SubjectCode{} ? now : seen.next_code;

@@ -17,8 +17,8 @@ namespace nearmiss {
 
 namespace {
 
-/// A subject's families are compared with each other if it has times for at least this many pairs of family
-/// and kind.
+/// A subject's families are compared with each other if the subject has times for at least this many pairs of
+/// a family and a kind.
 constexpr std::size_t fewest_families = 8;
 /// Standard deviations of log(time now / time before) if nothing has changed. Their squares are added to the
 /// variance that follows from the spread among batches. For a family that is compared with the subject's
@@ -48,7 +48,7 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// An estimate of the variance of the population from which the values are drawn; 0 for a single value.
+/// An estimate of the variance of the distribution from which the values are drawn; 0 for a single value.
 double sample_variance(const std::vector<double>& values) {
   if (values.size() < 2) return 0;
   const double middle = mean(values);
@@ -86,7 +86,8 @@ struct Variance {
   [[nodiscard]] double degrees_of_freedom() const { return std::min(square(value) / weight, 1e6); }
 };
 
-/// The logarithm of the time per query in ns: a mean over all batches, weighted by their numbers of queries.
+/// The logarithm of a time per query in ns. It is the mean over all batches, weighted by their numbers of
+/// queries.
 struct LogTime {
   double mean = 0;
   /// The variance of `mean`. Assumes that a batch's variance is inversely proportional to its number of
@@ -127,8 +128,8 @@ LogTimes log_times(const Statistics& statistics) {
   return times;
 }
 
-/// Logarithms of the ratios time now / time before, one for each earlier campaign. Each logarithm is the sum
-/// of two parts, `common` and `own`.
+/// The logarithm of time now / time before, for each earlier campaign. Each logarithm is the sum of two
+/// parts, an entry of `common` and an entry of `own`.
 struct Ratios {
   /// the part that is shared with the ratios of other times, for example because the machine is busy
   std::vector<double> common = {};
@@ -204,7 +205,7 @@ class Times {
     place.sampling += variance;
   }
 
-  /// The part of a change's variance that comes from the spread among batches.
+  /// The part of the variance of a change that comes from the spread among batches.
   [[nodiscard]] Variance sampling(const CountsKey& key) const {
     Variance sum;
     if (is_whole(key)) {
@@ -218,16 +219,15 @@ class Times {
     return sum;
   }
 
-  /// The additional variance of the change of a subject's time as a whole. If a subject has too few families
-  /// to estimate the variance from the spread among them, this is also the additional variance of the change
-  /// of each family's time.
+  /// The other part of the variance, for the change of a subject's time as a whole. If a subject has too few
+  /// families for spread_of_families(), this value is also used for the change of each family's time.
   [[nodiscard]] Variance assumed_spread(const Ratios& ratios) const {
     const double spread = families_.size() > 1 ? spread_of_subject : spread_of_machine;
     return {square(spread) * ratios.of_difference() / 2, HUGE_VAL};
   }
 
-  /// The additional variance of the change of a single family's time. It is estimated from the spread among
-  /// the changes of the subject's families.
+  /// The other part of the variance, for the change of a single family's time. It is estimated from the
+  /// spread among the changes of the subject's families.
   [[nodiscard]] Variance spread_of_families(const std::string& subject) const {
     std::vector<double> changes;
     std::vector<double> variances;

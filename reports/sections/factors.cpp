@@ -60,9 +60,9 @@ struct Row {
 bool is_everywhere(const RightRange& range) { return range.exponents && range.elsewhere == FactorCounts(); }
 
 /// The range of a factor at which a subject is right for all kinds. Returns nothing if the ranges of the
-/// kinds differ or if no kind has a range. If the subject is right at all values of two kinds, the ranges of
-/// these kinds count as equal, even if they differ. A kind with too few queries is left out, unless all kinds
-/// have too few.
+/// kinds differ or if no kind has a range. If the subject is right at all values that two kinds have, the
+/// ranges of these two kinds count as equal, even if the values differ. Kinds with too few queries are left
+/// out if another kind has enough queries.
 std::optional<RightRange> common(const Ranges& ranges, const std::string& factor) {
   std::optional<RightRange> all;
   const bool has_enough = std::ranges::any_of(
@@ -87,7 +87,7 @@ std::optional<RightRange> of_kind(const Ranges& ranges, const std::string& facto
   return found == ranges.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// One row for each subject whose ranges are the same for all kinds. Other subjects have a row for each kind.
+/// A subject has one row if its ranges are the same for all kinds, otherwise a row for each kind.
 std::vector<Row> rows_of(const Statistics& statistics) {
   std::map<std::string, Ranges> subjects;
   for (const RightRange& each : right_ranges(statistics.factors))

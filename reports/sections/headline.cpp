@@ -77,8 +77,8 @@ std::string group_text(const std::vector<const SubjectVerdict*>& group) {
 bool is_unjudged(const SubjectVerdict& verdict) { return verdict.failures.contains(FailureKind::unjudged); }
 
 /// Says which subjects failed, which were asked nothing, and which did not fail. If only one subject failed,
-/// says how it failed. If several subjects failed, groups them by the least exotic class of queries in which
-/// they failed.
+/// the text also says how. If several subjects failed, the text groups them by the least exotic class of
+/// queries in which they failed.
 std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   std::map<QueryClass, std::vector<const SubjectVerdict*>> failed;
   std::vector<std::string> unjudged;
@@ -170,8 +170,8 @@ ordered_json names_of(const Failures& failures) {
   return json;
 }
 
-/// The index of a subject's simplest finding; null if the subject has none. Prefers, in this order, findings
-/// whose failure counts, less exotic queries, graver failures, and simpler shrunk queries.
+/// The index of a subject's simplest finding; null if the subject has no finding. Prefers, in this order,
+/// findings whose failure counts, less exotic queries, graver failures, and simpler shrunk queries.
 ordered_json index_of_simplest(const std::string& subject, const std::vector<ShownFinding>& findings,
                                const Failures& failing) {
   const auto rank = [&](const Finding& finding) {

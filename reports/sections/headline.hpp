@@ -21,17 +21,17 @@ struct Headline {
   std::vector<std::string> alarms;
 };
 
-/// Says which subjects failed and in which class of queries, how many queries were asked, and, if there is a
-/// baseline, whether anything is new. Only the failures in `failing` count.
+/// The headline says which subjects failed, in which class of queries they failed, and how many queries were
+/// asked. If there is a baseline, the headline also says what is new. Only the failures in `failing` count.
 Headline headline(const Statistics& statistics, const std::optional<Changes>& since,
                   const Failures& failing = usual_failures());
 
 /// A list with an object for each subject, in the order of names. An object has
 ///   the verdict on the subject, and a list of its failures, the gravest first;
 ///   the subject's place on the ladder of precisions (LadderPlace);
-///   its rates, over all its queries and over the families of each class;
-///   its run times, and the number of its changes since the baseline;
-///   the index in `findings` of its simplest failure, or null.
+///   the subject's rates, over all its queries, and over its queries of each class of families;
+///   the subject's run times, and how many of each sort of change it has since the baseline;
+///   the index of the subject's simplest failure in `findings`, or null.
 nlohmann::ordered_json scorecard_json(const Statistics& statistics, const std::vector<ShownFinding>& findings,
                                       const std::optional<Changes>& since,
                                       const Failures& failing = usual_failures());

@@ -35,15 +35,15 @@ struct Rung : LadderPlace {
   CountsSum sum;  ///< the sum of the subject's counters over all families and kinds
 
   [[nodiscard]] double claimed() const { return *unit; }
-  /// Distance of the farthest false positive, divided by the claimed bound; 0 without false positives.
+  /// Distance of the farthest false positive, divided by the claimed bound; 0 if there is no false positive.
   [[nodiscard]] double part() const { return sum.counts.max_ratio(); }
-  /// Distance of the farthest false positive; 0 without false positives.
+  /// Distance of the farthest false positive; 0 if there is no false positive.
   [[nodiscard]] double farthest() const { return part() * claimed(); }
 };
 
-/// Says which power of ε the farthest distance follows. The fit is a line through the logarithms of ε and of
-/// the farthest distance, by least squares, with one point for each scalar of an algorithm. A fit uses the
-/// queries of one origin, or of all origins.
+/// Says which power of ε the farthest distance follows. The fit is a line, by the method of least squares. It
+/// has one point for each scalar of an algorithm: the logarithms of ε and of the farthest distance. A fit
+/// uses the queries of one origin, or of all origins.
 struct Fit {
   std::string algorithm, origin;
   double exponent = 0, standard_error = 0;
@@ -63,8 +63,8 @@ double claimed_distance(const std::string& algorithm, int exponent) {
   return tolerances_of(c, std::exp2(exponent), 1.0).distance_bound();
 }
 
-/// Whether the value of Rung::part() is known. If the value is below the lowest border of the histogram, only
-/// this border is known, as an upper bound of the value.
+/// Whether the value of Rung::part() is known. Below the lowest border of the histogram, the value is not
+/// known; the border is only its upper bound.
 bool is_measured(const Rung& rung) { return rung.part() >= Histogram::border(1); }
 
 bool is_ladder(const std::vector<Rung>& all) {
@@ -105,8 +105,8 @@ nlohmann::ordered_json place_json(const LadderPlace& place) {
 namespace {
 
 /// The rungs (subjects of the precision ladder) of wang and wang-tight, one for each scalar in the
-/// statistics, by ascending precision. Counts only queries of the origin `only` (family.hpp), or of all
-/// origins if `only` is "".
+/// statistics, in the order of ascending precision. Counts only queries of the origin `only` (family.hpp), or
+/// of all origins if `only` is "".
 std::vector<Rung> rungs(const Statistics& statistics, std::string_view only = "") {
   std::map<std::string, CountsSum> by_subject;
   // The fits test the exponent of ε in the distance bound 41 B ε^¼, where B is the size of the pair. This

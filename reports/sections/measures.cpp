@@ -51,7 +51,7 @@ Value upper_bound_of_misses(const CountsSum& sum) {
   return clopper_pearson_upper(sum.counts.false_negatives, sum.counts.collisions);
 }
 
-/// The 95 % confidence interval of a rate; nothing unless the queries are a random sample.
+/// The 95 % confidence interval of a rate; nothing if the queries are not a random sample.
 template <auto count, auto total>
 Value interval(const CountsSum& sum) {
   if (!sum.is_sample) return {};
@@ -64,7 +64,7 @@ std::string late_text(const CountsSum& sum) {
   return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.late);
 }
 
-/// The number of sound times with a rounded step that has contact (Counts::committed); "-" if no time was
+/// The number of sound times for which the rounded step has contact (Counts::committed); "-" if no time was
 /// promised to be a lower bound.
 std::string committed_text(const CountsSum& sum) {
   return sum.counts.times_promised == 0 ? "-" : with_separators(sum.counts.committed);

@@ -37,8 +37,8 @@ struct Measure {
 /// The measures that report.json shows for every sum, in the order of report.json.
 std::span<const Measure> rate_measures();
 
-/// The measure with this key: one of rate_measures(), or one of the few that report.json shows only in some
-/// places. Throws std::out_of_range if no measure has this key.
+/// The measure with this key: one of rate_measures(), or one of the few other measures, which report.json
+/// shows only in some places. Throws std::out_of_range if no measure has this key.
 const Measure& measure(std::string_view key);
 
 using MeasureKeys = std::vector<std::string_view>;

@@ -11,12 +11,12 @@
 
 namespace nearmiss {
 
-/// A hunt for a known defect of `subject`, and how long it took to find the defect.
+/// A hunt (a search for a known defect of `subject`), and how long the hunt took to find the defect.
 struct Hunt {
   std::string subject, way;
   std::string time = {};   ///< time limit of the hunt: "60s"
   std::uint64_t seed = 0;  ///< seed of the queries
-  /// The failure that was found, if any; without a failure, the members below are meaningless.
+  /// The failure that was found, if any. If no failure was found, the members below have no meaning.
   std::optional<std::string> failure = {};  ///< "false-negative", "refuted-bound" or "late"
   double seconds = 0;
   std::uint64_t cases = 0;
@@ -30,9 +30,9 @@ std::vector<Hunt> load_hunts(const std::filesystem::path& file);
 
 /// Reads the table that tools/environments writes: results of CCDs in environments. An environment is a
 /// compiler, its flags, and the processor's mode of arithmetic. Returns the table as JSON. Each row has a
-/// verdict, which says whether the CCD keeps its guarantee to miss no collision; the verdict "gives no
-/// answer" means that some queries got no answer. Returns "" for an empty table. Throws Error if the file
-/// cannot be read or has other content.
+/// verdict, which says whether the CCD misses no collision ("keeps it"), misses some ("misses"), or gives no
+/// answer to some queries ("gives no answer"). Returns "" for an empty table. Throws Error if the file cannot
+/// be read or has other content.
 std::string load_environments(const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -18,12 +18,12 @@ namespace nearmiss {
 
 namespace {
 
-/// The first cell of the table's row for each PairFate, which says what becomes of a pair.
+/// The first cell of the row for each PairFate. The cell says what becomes of a pair.
 constexpr std::array<std::string_view, pair_fate_count> explanations{
     "swept boxes do not meet: no plane, no polynomial", "share a vertex",
     "at rest relative to each other: a static test", "in relative translation: a linear test", "asked"};
 
-/// The pairs of a scene over all its steps, and what became of them.
+/// The pairs of all steps of a scene, and what became of these pairs.
 struct ScenePairs {
   std::array<Funnel, kinds_of_meshes.size()> funnels;  ///< pairs of each kind
   std::size_t steps = 0;
@@ -51,7 +51,7 @@ std::map<std::string, ScenePairs> scenes_of(const Statistics& statistics) {
 
 using Row = std::vector<std::string>;
 
-/// A row of a table. For each kind, it has the number in `parts`, and this number as a percentage of the
+/// A row of a table. For each kind, the row has a number from `parts`, and this number as a percentage of the
 /// number in `all`.
 Row row(std::string_view what, std::array<std::uint64_t, 2> parts, std::array<std::uint64_t, 2> all) {
   Row cells{std::string(what)};

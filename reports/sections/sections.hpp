@@ -27,8 +27,8 @@ std::string summary_table(const Statistics& statistics, const Failures& failing 
 std::string sizes_table(const Statistics& statistics);
 nlohmann::ordered_json sizes_json(const Statistics& statistics);
 
-/// "89 % of the missed ones have scale=1e-6, and 20 % of all": percentages of the missed collisions and of
-/// all collisions.
+/// "89 % of the missed ones have scale=1e-6, and 20 % of all". The first percentage is of the missed
+/// collisions, the second is of all collisions.
 std::string to_text(const CommonFactors& common);
 /// The values of factors (properties that a family varies) that missed collisions have in common: a line (or
 /// an object in JSON) for each subject, kind and family with factors and misses.
@@ -36,8 +36,8 @@ std::string common_factors_lines(const Statistics& statistics);
 nlohmann::ordered_json common_factors_json(const Statistics& statistics);
 
 /// Versions of a CCD, compared query by query: a line for each pair, "new against old: 12 fixed, 3 broken, 41
-/// both fail, of 5,000 queries (ordinary vt 3 broken; ...)". The line also names the kinds that are not
-/// compared because only one of the two versions was asked about them.
+/// both fail, of 5,000 queries (ordinary vt 3 broken; ...)". If only one of the two versions was asked about
+/// a kind, the line also says that this kind is not compared.
 std::string version_lines(const Statistics& statistics);
 /// A list with an object for each pair of versions, class of families and kind.
 nlohmann::ordered_json versions_json(const Statistics& statistics);
@@ -45,8 +45,8 @@ nlohmann::ordered_json versions_json(const Statistics& statistics);
 /// The pairs of each scene and what became of them: a table for each scene over all its steps, with a line
 /// for each PairFate and a column for each kind.
 std::string funnel_tables(const Statistics& statistics);
-/// An object with a member for each step of a scene. Such a member has a member for each kind, whose value is
-/// that of funnel_json (measures.hpp).
+/// An object with a member for each step of a scene. The member of a step has a member for each kind, with
+/// the value that funnel_json (measures.hpp) makes.
 nlohmann::ordered_json funnels_json(const Statistics& statistics);
 
 /// A table for each simulated scene, with a line for each subject.
@@ -69,16 +69,17 @@ nlohmann::ordered_json sweeps_json(const Statistics& statistics);
 nlohmann::ordered_json option_sweeps_json(const Statistics& statistics);
 nlohmann::ordered_json cliffs_json(const Statistics& statistics);
 
-/// Some subjects pass a query on, for example to the oracle, if their own algorithm is not sure. The tables
-/// have rows for each such subject, one row for all families, then one row for each family. A row says how
-/// many queries each decider decides. It also gives the subject's run time divided by that of wang and by
-/// that of exact, if both subjects have times.
+/// Some subjects pass a query on to another decider, such as exact arithmetic, if their own algorithm is not
+/// sure. Each such subject has a table, with a row for all families together, then a row for each family. A
+/// row says how many queries each decider decided. It also has two quotients: the subject's run time divided
+/// by the run time of wang, and divided by the run time of exact, each over the kinds and families for which
+/// both subjects have times.
 std::string decider_tables(const Statistics& statistics);
 nlohmann::ordered_json deciders_json(const Statistics& statistics);
 
-/// The ladder of precisions (one algorithm in several scalar types): a row for each subject on it, and fits
-/// of the farthest false positives' distances by a power of the scalar's ε. "" unless an algorithm has at
-/// least two precisions.
+/// The ladder of precisions (one algorithm in several scalar types): a row for each subject on the ladder,
+/// and fits that say which power of the scalar's ε the distance of the farthest false positive follows.
+/// Returns "" unless an algorithm has at least two precisions.
 std::string ladder_table(const Statistics& statistics);
 nlohmann::ordered_json ladder_json(const Statistics& statistics);
 
@@ -86,8 +87,8 @@ nlohmann::ordered_json ladder_json(const Statistics& statistics);
 ///   "left_out"            the names of the timed subjects that are not compared
 ///   "subjects"            for each subject ns_per_query, rates, the farthest distance, the sort of its
 ///                         times, and the median, the 99 % quantile and the largest magnitude of time - t*,
-///                         where t* is the exact earliest time; for a sound lower bound this magnitude is
-///                         how early the time is
+///                         where t* is the exact earliest time; if the time is a sound lower bound, this
+///                         magnitude says how early it is
 ///   "front_by_distance"   the Pareto front by the farthest distance
 ///   "front_by_rate"       the Pareto front by the rate of false positives
 ///   "front_by_earliness"  the Pareto front by the 99 % quantile of earliness, for sound lower bounds
@@ -102,7 +103,7 @@ struct LadderPlace {
   std::string algorithm;  ///< the subject's name without the scalar: "wang-eps:h=0.001@0.5"
   std::string scalar;
   int epsilon_exponent = 0;
-  /// The bound by which the distances of false positives are divided. Its unit is B, the size of a query's
+  /// The bound by which the distances of false positives are divided, in units of B, the size of a query's
   /// pair. Nothing if the bound is not known.
   std::optional<double> unit;
 };

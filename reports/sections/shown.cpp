@@ -53,7 +53,7 @@ ShownFinding shown(const Finding& finding, std::uint64_t seen, std::size_t numbe
 
 std::vector<ShownFinding> shown_findings(const Campaign& campaign) {
   FirstFindings first;
-  // for each name in lower case, the number of files that were given this name so far
+  // for each name of a file without its number, in lower case: the number of findings with this name so far
   std::map<std::string, std::size_t> number;
   std::vector<ShownFinding> result;
   for (Finding& finding : campaign.findings())

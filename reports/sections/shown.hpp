@@ -23,14 +23,14 @@ struct ShownFinding {
   Exported shrunk, original;
 };
 
-/// The first findings of each signature and class (FirstFindings); findings.csv has all findings. The
+/// The first findings of each signature and class (FirstFindings), in the order of Campaign::findings. The
 /// numbers in file names start at 1 for each kind of failure and each subject; subjects whose file names
 /// differ only in upper and lower case share numbers.
 std::vector<ShownFinding> shown_findings(const Campaign& campaign);
 
-/// The command that replays a finding from within the report's folder, with the run's --bound and, for a
-/// plug-in, the run's limits. If the subject is a plug-in, the command has the path of the plug-in on the
-/// machine that found the failure.
+/// The command that replays a finding in the report's folder. It has the run's --bound and, for a plug-in,
+/// the run's limits of time and memory. If the subject is a plug-in, the command has the path of the plug-in
+/// on the machine that found the failure.
 std::string replay_command(const Campaign& campaign, const ShownFinding& shown);
 
 struct ShownFarthest {

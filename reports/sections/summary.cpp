@@ -164,7 +164,8 @@ constexpr const char* footnote_on_times =
     "invalid: "
     "a time that is none, or a collision without the time that is promised\n";
 
-/// Explains the mark "**" of distances that are not fractions of a claimed bound; "" if no distance has it.
+/// Explains the mark "**" of distances that are not fractions of a claimed bound; "" if no distance has this
+/// mark.
 std::string footnote_on_units(const Statistics& statistics) {
   const bool is_marked = std::any_of(
       statistics.counts.begin(), statistics.counts.end(),
@@ -199,8 +200,9 @@ constexpr const char* footnotes =
 
 std::string spaced(const std::string& text) { return text.empty() ? "" : text + "\n"; }
 
-/// A table with a row for each subject, kind and class. A row has the sort of the subject's times, how many
-/// of them are late or stuck at 0, and how early or late they are. "" if no subject gives times.
+/// A table with a row for each subject, kind and class. A row has the sort of the subject's times, the
+/// numbers of times that are late or stuck at 0, and how early or late the times are. "" if no subject gives
+/// times.
 std::string time_table(const Statistics& statistics) {
   auto sums = by_class(statistics);
   std::erase_if(sums, [](const auto& each) {

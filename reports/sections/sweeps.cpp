@@ -29,7 +29,7 @@ using Sweep = std::map<double, CountsSum>;
 /// The counters, summed over all kinds, for each class of families and each value of a subject's option.
 using OptionSweep = std::map<std::pair<QueryClass, double>, CountsSum>;
 
-/// Two neighbouring values of an option, and for each value the misses among the collisions.
+/// Two neighbouring values of an option, and the proportion of missed collisions at each of them.
 struct Cliff {
   QueryClass of{};  ///< class of the families
   double value = 0, next = 0;
@@ -105,7 +105,8 @@ Proportion missed(const CountsSum& sum) { return {sum.counts.false_negatives, su
 double difference(const Cliff& cliff) { return std::abs(cliff.missed.rate() - cliff.missed_next.rate()); }
 
 /// The neighbouring values of the option between which the rate of misses changes most. Looks only at the
-/// least exotic class in which the rate changes by more than chance explains. Nothing without such a class.
+/// least exotic class in which the rate changes by more than chance explains. Returns nothing if there is no
+/// such class.
 std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
   constexpr double improbable = 1e-3;
   std::optional<Cliff> best;
@@ -114,8 +115,8 @@ std::optional<Cliff> cliff_of(const OptionSweep& sweep) {
     const auto& [next, next_sum] = *std::next(at);
     if (next.first != key.first || (best && best->of != key.first)) continue;
     if (key.second < 0 && next.second >= 0)
-      // for many options, a negative value means that there is no limit, so a positive value is not its
-      // neighbour
+      // for many options, a negative value means "no limit", so it is not a neighbour of the smallest other
+      // value
       continue;
     const Cliff cliff{key.first, key.second, next.second, missed(sum), missed(next_sum)};
     const bool is_there = cliff.missed.total > 0 && cliff.missed_next.total > 0 &&

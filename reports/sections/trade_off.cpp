@@ -26,8 +26,9 @@ namespace {
 /// Run time and error of a subject, over the kinds and families that all compared subjects were asked about.
 struct TradeOff {
   std::string subject;
-  /// The sum over the families that were timed. Run times and rates are computed from this sum. It leaves out
-  /// the families of directed searches, which are not timed, and whose rates have no meaning.
+  /// The sum over the families that were timed. Run times and rates are computed from this sum. The sum
+  /// leaves out the families of directed searches, because they are not timed, and their rates have no
+  /// meaning.
   CountsSum timed;
   CountsSum all;
   LadderPlace place;
@@ -67,7 +68,7 @@ std::map<std::pair<Kind, std::string>, Subjects> asked_subjects(const Statistics
 }
 
 /// The largest set of subjects that were asked about the same family. If several sets are equally large,
-/// returns the set that was asked about the most families.
+/// returns the set whose subjects were asked about the most families together.
 Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>& asked) {
   std::map<Subjects, std::size_t> sets;
   for (const auto& [family, subjects] : asked) ++sets[subjects];
@@ -77,8 +78,9 @@ Subjects most_comparable(const std::map<std::pair<Kind, std::string>, Subjects>&
   return most == sets.end() ? Subjects() : most->first;
 }
 
-/// A TradeOff for each timed subject, in the order of names, except subjects beyond their contracts. If no
-/// family was asked of all these subjects, only the subjects of most_comparable() have a TradeOff.
+/// A TradeOff for each timed subject, in the order of names, except subjects beyond their contracts. If there
+/// is no family about which all these subjects were asked, only the subjects of most_comparable() have a
+/// TradeOff.
 std::vector<TradeOff> trade_offs(const Statistics& statistics) {
   const auto asked = asked_subjects(statistics);
   const Subjects subjects = most_comparable(asked);
@@ -179,8 +181,9 @@ constexpr std::array references{"wang", "exact"};
 
 constexpr std::size_t decider_count = 4;
 
-/// Names of the deciders in files, in the order in which a subject asks them. If the stage or rejection of an
-/// answer has one of the last three names, that decider decided the query; otherwise "algorithm" did.
+/// Names of the deciders in files, in the order in which a subject asks them. If the stage or the rejection
+/// of an answer has one of the last three names, the decider with this name decided the query. Otherwise
+/// "algorithm" decided it.
 constexpr std::array<std::string_view, decider_count> decider_names{"algorithm", "filter", "finer", "exact"};
 
 /// How many queries of a family, of all kinds together, each decider of a subject decided.
@@ -218,8 +221,9 @@ std::string row_family(const std::string& family) {
   return family.starts_with("scene:") ? scene_of(family) : shown_family(family);
 }
 
-/// The run time of a subject divided by that of another subject, over the kinds and families for which
-/// `is_shown` is true and both subjects have times; nothing without such a kind and family.
+/// The run time of a subject divided by the run time of another subject. Includes the kinds and families for
+/// which `is_shown` is true and both subjects have times. Returns nothing if there is no such kind and
+/// family.
 template <class IsShown>
 std::optional<double> time_over(const Statistics& statistics, const std::string& subject,
                                 const std::string& other, const IsShown& is_shown) {

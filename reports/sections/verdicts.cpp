@@ -49,8 +49,8 @@ std::pair<std::uint64_t, std::uint64_t> count_and_total(const std::map<Kind, Cou
 
 /// "ordinary vt 53 of 504, ee 2 of 701; degenerate 1,204 of 5,001": how often a failure happened, for each
 /// class of families and, in the first of these classes, for each kind. Leaves out classes and kinds without
-/// the failure, and the name of the class if only unclassified families have the failure. If the queries of
-/// ordinary families could fail, but none did, "; no ordinary one of 504" follows.
+/// the failure. Also leaves out the name of the class if only unclassified families have the failure. If
+/// queries of ordinary families could have failed, but none of them did, "; no ordinary one of 504" follows.
 std::string class_by_class(const Parts& parts, const FailureInfo& failure) {
   std::vector<std::string> classes;
   std::string no_ordinary_one;
@@ -112,9 +112,9 @@ std::string class_and_kind(QueryClass of, Kind kind) {
 }
 
 /// "53 of 504 ordinary vt collisions": how often a failure happened in families of the class `in`, for each
-/// kind. If `known`, the classes of the failed queries are known, and the text leaves out kinds without a
-/// failed query of the class `in`. Adds the kinds in the text to `said`. Returns "" if the text would have no
-/// kind.
+/// kind. If `known` is true, the classes of the failed queries are known, and the text leaves out kinds
+/// without a failed query of the class `in`. Adds the kinds in the text to `said`. Returns "" if the text
+/// would have no kind.
 std::string said_of_families(const Parts& parts, const FailureInfo& failure, QueryClass in, bool known,
                              std::set<Kind>& said) {
   const auto part = parts.find(in);
@@ -157,9 +157,10 @@ std::string said_of_queries(const Parts& parts, const FailureInfo& failure, Quer
                      names.empty() ? "" : fmt::format(" in {} families", fmt::join(names, " and ")));
 }
 
-/// The least exotic class of the queries on which a failure happened, and how often it happened on queries of
-/// this class: "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee collisions in degenerate
-/// families". If the classes of the queries are not known, uses the classes of their families.
+/// The least exotic class of the queries on which a failure happened, and a text that says how often the
+/// failure happened on queries of this class: "missed 53 of 504 ordinary vt collisions, and 12 ordinary ee
+/// collisions in degenerate families". If the classes of the queries are not known, uses the classes of their
+/// families.
 std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const FailureInfo& failure) {
   const auto of_queries = class_of_queries(subject, failure);
   const QueryClass of = of_queries.value_or(least_exotic_part(subject.parts, failure)->first);
@@ -170,7 +171,8 @@ std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const Failu
   return {of, fmt::format("{} {}{}{}", failure.verb, in_families, both ? ", and " : "", elsewhere)};
 }
 
-/// Puts the failures that count into words, each with the least exotic class in which it was seen.
+/// For each failure that counts, says in words how the subject failed, in the least exotic class with this
+/// failure.
 void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerdict& verdict) {
   for (const FailureKind kind : in_common(verdict.failures, failing)) {
     verdict.clean = false;
@@ -229,9 +231,9 @@ std::string unjudged_text(const Counts& counts) {
 }
 
 /// How often a failure happened, for each class of families. A query may be of another class than its family.
-/// If the least exotic class of the failed queries is not that of the families with failures, the text begins
-/// with the failed queries of their least exotic class: "3 ordinary vt collisions in extreme families; in all
-/// 40 of 5,000 in extreme families".
+/// If the least exotic class of the failed queries is not the least exotic class of the families with
+/// failures, the text begins with the failed queries of the former class: "3 ordinary vt collisions in
+/// extreme families; in all 40 of 5,000 in extreme families".
 std::string failed_text(const OfSubject& subject, const FailureInfo& failure) {
   const auto in_queries = class_of_queries(subject, failure);
   if (!in_queries || *in_queries == least_exotic_part(subject.parts, failure)->first)

@@ -11,14 +11,14 @@
 
 namespace nearmiss {
 
-/// What a campaign says about a subject.
+/// The verdict of a campaign on a subject.
 struct SubjectVerdict {
   std::string subject;
   Failures failures;  ///< all failures of the subject
   bool clean = true;  ///< whether none of `failures` counts
   std::string text;   ///< "no miss in 1,234 collisions" and so on
-  /// For each failure that counts, how the subject failed in the least exotic class that has this failure:
-  /// "missed 53 of 504 ordinary vt collisions".
+  /// For each failure that counts: a text that says how often the subject failed in the least exotic class
+  /// that has this failure, such as "missed 53 of 504 ordinary vt collisions".
   std::map<FailureKind, std::string> said;
   QueryClass least_exotic = QueryClass::unclassified;  ///< the least exotic class with a failure that counts
 

@@ -55,7 +55,8 @@ double level_of(double risk, std::size_t tests) {
 
 namespace {
 
-/// P(X >= count) and P(X <= count) for a random number X whose smallest value is `least`.
+/// P(X >= count) and P(X <= count) for a random number X with this distribution. The smallest value of X is
+/// `least`.
 template <class Distribution, class Number>
 ExactTest tails(const Distribution& distribution, Number count, Number least) {
   return {count == least ? 1 : cdf(complement(distribution, count - 1)), cdf(distribution, count)};

@@ -1,4 +1,4 @@
-// Confidence bounds of rates, and exact tests that compare two rates.
+// Computes confidence bounds of rates, and exact tests that compare two rates.
 #pragma once
 
 #include <algorithm>
@@ -54,17 +54,17 @@ struct ExactTest {
 /// The significance level of each of several tests that share a risk (Bonferroni).
 double level_of(double risk, std::size_t tests);
 
-/// Fisher's exact test, which takes the sum of both counts as given. If the totals add up to more than 2^31,
-/// or the counts to more than a million, the test replaces the hypergeometric distribution by a binomial
-/// distribution, which gives larger p-values.
+/// Fisher's exact test, which takes the sum of the two counts as given. If the totals add up to more than
+/// 2^31, or the counts to more than a million, the test replaces the hypergeometric distribution by a
+/// binomial distribution, which gives larger p-values.
 ExactTest fisher_test(const Proportion& now, const Proportion& before);
 
-/// An exact test like fisher_test, for several pairs {now, before} together. Each pair has its own rate.
-/// Given the sum of a pair's counts, now.count is a sum of independent trials; their mean probability is
-/// now.total / (now.total + before.total). The test uses the binomial distribution with the number of trials
-/// of all pairs and the mean of their probabilities. By Hoeffding's theorem (1956), at a distance of at least
-/// 1 from the expectation, the tails of this distribution are at least as large as those of the sum of
-/// now.count over all pairs.
+/// An exact test like fisher_test, but for several pairs {now, before} together. The rate may differ from
+/// pair to pair. If the sum of a pair's counts is given, now.count is distributed as the number of successes
+/// in that many independent trials. The mean of their probabilities is now.total / (now.total +
+/// before.total). The test uses the binomial distribution with the number of trials of all pairs and the mean
+/// of their probabilities. By Hoeffding's theorem (1956), the tails of this distribution, at a distance of at
+/// least 1 from the expectation, are at least as large as the tails of the sum of now.count over all pairs.
 ExactTest pooled_test(const std::vector<std::pair<Proportion, Proportion>>& pairs);
 
 }  // namespace nearmiss

@@ -1,7 +1,7 @@
-// Declarations of counters. One declaration has all that a counter needs: its name, its member, and where
-// files show it. Merging (merge_counters), the store (store/values.hpp), report.json (sections/measures.hpp)
-// and statistics.csv (csv.hpp) go through the declarations. sections/measures.hpp declares what reports
-// compute from counters.
+// Declarations of counters. A declaration says everything about a counter: its name, its member, and where
+// files show it. The code for merging (merge_counters), for the store (store/values.hpp), for report.json
+// (sections/measures.hpp) and for statistics.csv (csv.hpp) goes through these declarations.
+// sections/measures.hpp declares the numbers that reports compute from counters.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,8 @@
 
 namespace nearmiss {
 
-/// A counter, or another member that merges as a counter does, such as a histogram or a list of cases.
+/// The declaration of a counter, or of another member that is merged as counters are, such as a histogram or
+/// a list of cases.
 template <class Owner, class Member>
 struct Counter {
   std::string_view name;  ///< the counter's key in the store, and its column in statistics.csv
@@ -29,7 +30,7 @@ struct Counter {
 template <class Owner, class Member, class... More>
 Counter(std::string_view, Member Owner::*, More...) -> Counter<Owner, Member>;
 
-/// An array of counts with a name for each entry.
+/// The declaration of an array of counts, with a name for each entry.
 template <class Owner, std::size_t size>
 struct NamedCounts {
   std::string_view name;  ///< key in the store
@@ -59,8 +60,8 @@ constexpr bool declares_all_members() {
   return declared == sizeof(Owner);
 }
 
-/// The largest sum of counts that is accepted; a sum of nanoseconds may reach 36 years. A few sums of this
-/// size add up without overflow.
+/// The largest sum of counts that is accepted. As a sum of nanoseconds, it is 36 years. A few sums of this
+/// size can be added without overflow.
 inline constexpr std::uint64_t largest_count = std::uint64_t{1} << 60U;
 
 /// Throws Error if the sum is greater than largest_count.
@@ -79,8 +80,8 @@ template <class Merges>
 requires requires(Merges& own, const Merges& other) { own.merge(other); }
 void add_up(Merges& own, const Merges& other) { own.merge(other); }
 
-/// Adds each counter of `other` to the same counter of `own`. Numbers are summed; other types have their own
-/// add_up or merge.
+/// Adds each counter of `other` to the same counter of `own`. Numbers are summed; every other type has its
+/// own add_up or merge.
 template <class Owner>
 void merge_counters(Owner& own, const Owner& other) {
   for_each_counter<Owner>([&](const auto& counter) { add_up(own.*counter.member, other.*counter.member); });

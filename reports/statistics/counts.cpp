@@ -8,8 +8,8 @@ namespace nearmiss {
 
 namespace {
 
-/// The order of cases, farthest first. The queries break ties, so that merging in any order keeps the same
-/// cases.
+/// The order of cases, farthest first. Cases with equal ratios are ordered by their queries, so that merging
+/// in any order keeps the same cases.
 bool farther(const FarCase& a, const FarCase& b) {
   if (a.ratio != b.ratio) return a.ratio > b.ratio;
   return std::tie(a.query.kind, a.query.x, a.query.separation, a.provenance) <

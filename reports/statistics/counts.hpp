@@ -45,9 +45,9 @@ void keep_farthest(std::vector<FarCase>& kept, double ratio, const Query& query,
 struct TimeError {
   double early = 0;  ///< t* - time if the time is before t*; as precise as Outcome::ratio
   double after = 0;  ///< time - t* if the time is after t*; as precise as Outcome::ratio
-  /// How early the time is, measured as a distance: an upper bound of how far a vertex of one primitive moves
-  /// relative to a vertex of the other between the time and t*. The distance is divided by B, the size of the
-  /// pair, and rounded.
+  /// How early the time is, measured as a distance. The distance is an upper bound of how far any vertex of
+  /// one primitive moves, relative to any vertex of the other primitive, between the time and t*. It is
+  /// divided by B, the size of the pair, and rounded.
   double travelled = 0;
   bool promised = false;  ///< the subject promises that the time is a lower bound
   bool late = false;      ///< contact, or a distance below the separation h, before a promised lower bound
@@ -67,13 +67,13 @@ struct Outcome {
   Verdict verdict;
   bool collision = false;
   /// For a false positive: how far the certified smallest distance over [0, 1] exceeds the separation,
-  /// divided by the claimed bound. The ratio is rounded up within its Histogram bin. The relative error is at
-  /// most 1/1000 if the ratio is above the first bin and large enough for Counts::farthest.
+  /// divided by the claimed bound. The ratio is rounded up, but stays in its Histogram bin. Its relative
+  /// error is at most 1/1000 if the ratio is above the first bin and large enough for Counts::farthest.
   double ratio = 0;
   bool bound_refuted = false;  ///< whether the distance certainly exceeds the claimed bound
   double bound = 0;            ///< the claimed bound, if it is refuted
-  /// Whether the subject claims no bound; if so, `ratio` is the distance divided by wang's bound for the
-  /// same pair.
+  /// Whether the subject claims no bound. If it claims none, `ratio` is the distance divided by wang's bound
+  /// for the same pair.
   bool measured_by_wang = false;
   std::string fault_text = {};                        ///< what an exception said
   std::optional<TimeError> time = {};                 ///< for a true positive with a time
@@ -116,7 +116,7 @@ struct Counts {
   std::vector<FarCase> earliest;  ///< times with the largest t* - time, at most far_cases
   std::vector<FarCase> latest;    ///< times with the largest time - t*, at most far_cases
 
-  /// Whether the counter of each part is at most that of its whole, for example false_negatives <=
+  /// Whether each counter of a part is at most the counter of the whole, for example false_negatives <=
   /// collisions.
   [[nodiscard]] bool is_possible() const;
 
@@ -174,7 +174,7 @@ struct Counts {
   [[nodiscard]] std::uint64_t without_answer(Fault why) const {
     return faults[static_cast<std::size_t>(why)];
   }
-  /// Queries that the subject answered and that are not collisions.
+  /// The number of queries that the subject answered and that are not collisions.
   [[nodiscard]] std::uint64_t others() const { return queries - faults_total() - collisions; }
   /// Rate of false positives among others(); 0 if there are no others.
   [[nodiscard]] double false_positive_rate() const {
@@ -193,24 +193,25 @@ struct Counts {
   [[nodiscard]] double max_early() const { return earliest.empty() ? 0 : earliest.front().ratio; }
   /// The largest time - t*; 0 if no time is after t*.
   [[nodiscard]] double max_after() const { return latest.empty() ? 0 : latest.front().ratio; }
-  /// A further case must have at least this ratio for the list `kept` to keep it; 0 until the list is full.
+  /// The smallest ratio with which a further case can enter the list `kept`; 0 until the list is full.
   [[nodiscard]] static double least_kept(const std::vector<FarCase>& kept) {
     return kept.size() < far_cases ? 0 : kept.back().ratio;
   }
-  /// Queries that the subject reported because it could not tell whether they collide.
+  /// The number of queries that the subject reported because it could not tell whether the primitives
+  /// collide.
   [[nodiscard]] std::uint64_t unknown() const {
     constexpr auto stage = static_cast<std::size_t>(Stage::unknown);
     return true_by_stage[stage] + false_by_stage[stage];
   }
-  /// Whether the subject's times are lower bounds or estimates. They count as lower bounds if the subject
-  /// promised of each of its times that it is a lower bound.
+  /// Whether the subject's times are lower bounds or estimates. The times count as lower bounds if the
+  /// subject promised, for each of them, that it is a lower bound.
   [[nodiscard]] TimeSort time_sort() const {
     if (times_given == 0) return TimeSort::none;
     return times_promised == times_given ? TimeSort::lower_bound : TimeSort::estimate;
   }
-  /// The bin that holds a quantile of the error t* - time, over the times that are not after t*: a fraction
-  /// `part` of these times have an error of at most the bin's upper end. The upper end is at most the largest
-  /// error.
+  /// The bin that holds a quantile of the error t* - time, over the times that are not after t*. A fraction
+  /// `part` of these times have at most the error that is the bin's upper end. The upper end is not larger
+  /// than the largest error.
   [[nodiscard]] Bin early_quantile(double part) const {
     const Bin bin = early.quantile(part);
     return {bin.from, std::min(bin.to, max_early())};
@@ -218,8 +219,8 @@ struct Counts {
   /// The bin that holds a quantile of |time - t*|, over all given times.
   [[nodiscard]] Bin time_error_quantile(double part) const;
   [[nodiscard]] double max_time_error() const { return std::max(max_early(), max_after()); }
-  /// The bin that holds a quantile of the ratio distance / bound: a fraction `part` of the false positives
-  /// have a ratio of at most the bin's upper end. The bin's upper end is at most the largest ratio.
+  /// The bin that holds a quantile of the ratio distance / bound. A fraction `part` of the false positives
+  /// have at most the ratio that is the bin's upper end. The upper end is not larger than the largest ratio.
   [[nodiscard]] Bin ratio_quantile(double part) const {
     const Bin bin = distances.quantile(part);
     return {bin.from, std::min(bin.to, max_ratio())};

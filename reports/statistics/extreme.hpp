@@ -1,4 +1,4 @@
-// The most extreme queries that were found. They show how much slack the paper's tolerances have.
+// The most extreme queries that a search has found. They show how much slack the paper's tolerances have.
 #pragma once
 
 #include <array>
@@ -27,8 +27,8 @@ struct Extreme {
 
   Of of{};
   std::string name;  ///< name of the tolerance or tests
-  /// The factor by which the tolerance is multiplied, while all other tolerances are those of the paper. For
-  /// a group of tests: the ratio distance / bound.
+  /// The factor by which the tolerance is multiplied; all other tolerances are the paper's. For a group of
+  /// tests: the ratio distance / bound.
   double value = 0;
   Query query;                ///< meaningless if nothing was found
   std::string provenance;     ///< origin of the query; empty if nothing was found
@@ -36,8 +36,9 @@ struct Extreme {
 
   [[nodiscard]] bool found() const { return !provenance.empty(); }
 
-  /// Merges what was found for the same tolerance or tests: keeps the more extreme query or, if both are
-  /// equally extreme, the query whose provenance comes first. Adds up the numbers of queries.
+  /// Merges the results of two searches for the same tolerance or tests. Keeps the more extreme query or, if
+  /// the two queries are equally extreme, the query whose provenance comes first. Adds up the numbers of
+  /// queries.
   void merge(const Extreme& other);
 
   bool operator==(const Extreme&) const = default;

@@ -50,7 +50,7 @@ double CommonFactors::share_of_collisions() const { return ratio(with.collisions
 
 namespace {
 
-/// FACTOR and x of a text "FACTOR=2^x"; nothing for any other text.
+/// The parts FACTOR and x of a text "FACTOR=2^x"; nothing for any other text.
 std::optional<std::pair<std::string_view, int>> power(std::string_view value) {
   constexpr std::string_view between = "=2^";
   const auto at = value.find(between);
@@ -111,9 +111,9 @@ FactorCounts sum_of(std::span<const Level> levels) {
   return sum;
 }
 
-/// Chooses the five successive values with the lowest rate of false positives, and returns the sum of their
-/// answers. Ignores values with misses, because a CCD that misses everything has no false positives. If fewer
-/// than five values remain, returns the sum over all of them.
+/// Chooses the five successive values that have, together, the lowest rate of false positives, and returns
+/// the sum of their answers. Ignores values with misses, because a CCD that misses everything has no false
+/// positives. If fewer than five values remain, returns the sum over all of them.
 FactorCounts best_answers(std::vector<Level> levels) {
   constexpr std::size_t most = 5;
   std::erase_if(levels, [](const Level& each) { return each.misses; });
@@ -162,9 +162,10 @@ std::span<const Level> longest_run(std::span<const Level> levels) {
 }
 
 /// Whether it may be chance that a subject misses none of the `collisions` at some consecutive values.
-/// `outside` has the values on one side of these, nearest first. Tries the rate of misses of the nearest
-/// value, that of the nearest two values together, and so on. Returns false if the nearest value has no
-/// misses.
+/// `outside` has the values on one side of those consecutive values, nearest first. Tries several rates of
+/// misses: the rate at the nearest value of `outside`, the rate at the nearest two values together, and so
+/// on. Returns true if, with one of these rates, it is not improbable that there are no misses. Returns false
+/// if the nearest value has no misses.
 template <class Levels>
 bool may_be_chance(std::uint64_t collisions, const Levels& outside) {
   if (outside.empty() || !outside.front().misses) return false;

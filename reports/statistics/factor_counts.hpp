@@ -17,8 +17,8 @@
 
 namespace nearmiss {
 
-/// Identifies a set of queries: those of one kind and family that a subject answered, and whose factors have
-/// the given values.
+/// Identifies a set of queries: the queries of one kind and family that a subject answered, and whose factors
+/// have the given values.
 struct FactorKey {
   std::string subject;
   Kind kind{};
@@ -71,21 +71,22 @@ struct CommonFactors {
 };
 
 /// For each subject, kind and family with misses, considers the values and pairs of values that at least half
-/// of the misses have. Among these, chooses the value or pair with the largest lift, share() /
-/// share_of_collisions(). Ties go to the value or pair that more misses have, then to a single value rather
-/// than a pair, then to the first in alphabetical order.
+/// of the misses have. Among these values and pairs, chooses the one with the largest lift, share() /
+/// share_of_collisions(). If several have the same lift, chooses one that the most misses have; if there is
+/// still a choice, prefers a single value to a pair, then the first in alphabetical order.
 std::vector<CommonFactors> common_factors(const FactorTable& table);
 
-/// The values of a factor "FACTOR=2^x" at which a subject is right. It is right at a value if it misses
-/// nothing, reports at most three quarters of the queries that do not collide, and has a rate of false
-/// positives at most 0.25 above the rate at the subject's best values.
+/// The values of a factor "FACTOR=2^x" at which a subject is right. A subject is right at a value if, for the
+/// queries with this value, it misses nothing, reports at most three quarters of the queries that do not
+/// collide, and has a rate of false positives that is at most 0.25 above the rate at the subject's best
+/// values.
 struct RightRange {
   std::string subject;
   Kind kind{};
   std::string factor;
   /// The first and the last x of the longest sequence of neighbouring values at which the subject is right.
-  /// Nothing if there is no such sequence or it has no collisions, if misses next to the sequence are so rare
-  /// that it may lack misses by chance, or if `too_few`.
+  /// Nothing if there is no such sequence, if its queries have no collisions, or if `too_few` is true. Also
+  /// nothing if misses are so rare next to the sequence that the sequence may be without misses by chance.
   std::optional<std::pair<int, int>> exponents;
   bool too_few = false;  ///< whether the values of the factor have fewer than two collisions each, on average
   FactorCounts elsewhere;  ///< the answers at all values that are not in the range `exponents`

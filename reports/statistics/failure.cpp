@@ -111,7 +111,7 @@ std::optional<FailureKind> failure_of(const Outcome& outcome) {
 
 namespace {
 
-/// Whether a signature is that of a query over the time limit.
+/// Whether a signature is the signature of queries over the time limit.
 bool is_slow(std::string_view signature) {
   constexpr auto time = static_cast<std::size_t>(Fault::time);
   return std::any_of(kinds.begin(), kinds.end(), [&](Kind kind) {

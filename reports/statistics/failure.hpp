@@ -1,6 +1,6 @@
-// Says what counts as a failure, and how grave it is. Only this file decides about failures: findings, exit
+// Says what counts as a failure, and how grave each failure is. This file alone decides that; findings, exit
 // codes, verdicts, the headline, the comparison with a baseline, the history of nights, Pareto fronts and
-// hunts for known defects follow it.
+// hunts for known defects use its functions.
 #pragma once
 
 #include <array>
@@ -58,7 +58,7 @@ const Failures& usual_failures();
 Failures in_common(const Failures& some, const Failures& others);
 
 /// Whether a failure breaks a promise about collisions. Such a failure raises an alarm even if the baseline
-/// has it.
+/// has the same failure.
 constexpr bool breaks_promise(FailureKind kind) { return kind <= FailureKind::beyond_bound; }
 
 /// How an answer fails; nothing if it does not fail, or if the query was not asked because earlier queries
@@ -70,13 +70,14 @@ FailureKind failure_of(const Signature& signature);
 /// The sort of finding that a failure makes; nothing if the failure makes no finding.
 std::optional<Finding::What> finding_of(FailureKind kind);
 
-/// The end of the name of a subject that is asked only queries that break its contract. The subject promises
-/// nothing about such queries, so reports show its failures, but these neither count nor raise an alarm.
+/// The name of a subject ends in this text if the subject is asked only queries that break its contract. The
+/// subject promises nothing about such queries, so reports show its failures, but the failures neither count
+/// nor raise an alarm.
 inline constexpr std::string_view beyond_contract = " (beyond contract)";
 inline bool is_beyond_contract(std::string_view subject) { return subject.ends_with(beyond_contract); }
 
-/// The failures in a subject's counters. For a subject with `beyond_contract` in its name, queries that it
-/// was not asked are no failure.
+/// The failures in a subject's counters. If the name of the subject ends in `beyond_contract`, queries that
+/// the subject was not asked are no failure.
 Failures failures_of(const std::string& subject, const Counts& counts);
 
 /// The failures of each subject; a subject without failures has an empty set. If the oracle failed, its

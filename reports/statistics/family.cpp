@@ -74,7 +74,7 @@ std::string scene_of(const std::string& step) { return step.substr(0, step.rfind
 
 namespace {
 
-// The names of the families of each class, each between two blanks. Only this table says which class a
+// For each class, the names of its families, each between two blanks. Only this table says which class a
 // family has.
 constexpr std::array<std::string_view, 3> classes{
     " near near-within v-drifting v-rest-angle v-rest-ratio rest rest-units rest-distant uniform "
@@ -108,7 +108,8 @@ QueryClass class_of(std::string_view family) {
     return family.find_first_of("@~:", 4) == std::string_view::npos ? QueryClass::ordinary
                                                                     : QueryClass::unclassified;
   const FamilyName name(family);
-  // A family of vertices and edges, v-NAME, has the class of NAME unless the table lists v-NAME.
+  // The family v-NAME, whose queries have the kinds vv and ve, has the class of NAME unless the table lists
+  // v-NAME itself.
   const QueryClass own = class_in_table(name.base);
   return own == QueryClass::unclassified ? class_in_table(name.root) : own;
 }

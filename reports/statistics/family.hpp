@@ -1,5 +1,5 @@
-// Families in reports: which of them are random samples, how near their queries are to those of a
-// simulation, and which families a report shows as one.
+// Facts about families that reports need: which families are random samples, how near their queries are to
+// the queries of a simulation, and which families a report shows as one.
 #pragma once
 
 #include <compare>
@@ -27,12 +27,12 @@ std::string shown_family(std::string_view family);
 std::string_view origin(std::string_view family);
 
 /// A name for the random draws of a family. The steps (NAME@VALUE) of a sweep make the same draws and differ
-/// only in the value of the parameter, so they get the same name. For a family that is no step of a sweep,
-/// this name is the family's own name.
+/// only in the value of the parameter, so all steps get one name. A family that is not a step of a sweep gets
+/// its own name.
 std::string draws_of(std::string_view family);
 
-/// The largest number of a subject's queries that share one random draw: the number of steps of the longest
-/// sweep.
+/// The largest number of a subject's queries that share one random draw, which is the number of steps of the
+/// longest sweep.
 std::uint64_t most_repeats(const Statistics& statistics, std::string_view subject);
 
 /// The same statistics, in which shown_family replaces each family's name: the counters of families that a
@@ -46,7 +46,7 @@ std::string scene_of(const std::string& step);
 /// ordinary; other simulations are unclassified.
 QueryClass class_of(std::string_view family);
 
-/// Identifies the counters of one subject and kind, summed over the families of one class.
+/// Identifies a sum of counters: those of one subject and kind, over all families of one class.
 struct ClassKey {
   std::string subject;
   Kind kind{};

@@ -53,7 +53,7 @@ struct Finding {
   /// (tools/certificates/README.md); "" without a proof.
   std::string certificate = {};
   /// For a fault: the end of the text that the subject's process wrote to standard error, as printable lines;
-  /// "" if it wrote nothing. After a crash, the text includes the functions on the stack.
+  /// "" if the process wrote nothing. After a crash, the text includes the functions on the stack.
   std::string errors = {};
 
   bool operator==(const Finding&) const = default;
@@ -75,8 +75,8 @@ constexpr bool has_step(Finding::What what) {
 constexpr bool has_time(Finding::What what) { return what == Finding::What::late || has_step(what); }
 
 /// Whether reports show findings of this sort without counting them as failures. Such a finding breaks no
-/// promise, so it is no failure of a version, no new way to fail since a baseline, and no reason for a user's
-/// test to fail.
+/// promise. Therefore it does not count as a failure of a version, is not a new way to fail since a baseline,
+/// and does not make a user's test fail.
 constexpr bool is_only_shown(Finding::What what) { return what == Finding::What::committed; }
 
 /// A way to fail.
@@ -99,8 +99,9 @@ inline Signature signature_of(const Finding& finding) {
 /// counts all findings.
 inline constexpr std::size_t findings_kept = 3;
 
-/// Takes the findings of a campaign in their order, and picks the first findings of each signature in each
-/// class of queries. Findings on which an earlier version of the CCD does not fail are counted separately.
+/// Takes the findings of a campaign one by one, in their order, and picks the first findings of each
+/// signature in each class of queries. If an earlier version of the CCD does not fail on the query of a
+/// finding, the finding is counted separately.
 class FirstFindings {
  public:
   /// Counts the finding. Returns its number among the findings of its signature and class, from 1 on.

@@ -1,5 +1,5 @@
-// Counts of the pairs of a scene: the pairs that were left out, by reason, and the pairs about which subjects
-// were asked.
+// Counts the pairs of a scene: the pairs that were left out, for each reason, and the pairs about which
+// subjects were asked.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace nearmiss {
 
-/// What becomes of a pair. Subjects are asked only about pairs with the fate `asked`; other pairs are left
-/// out.
+/// The fate of a pair. Subjects are asked only about pairs with the fate `asked`. For every other pair, the
+/// fate says why the pair is left out.
 enum class PairFate : std::uint8_t {
   boxes_apart,     ///< the swept boxes of the primitives do not meet
   share_vertex,    ///< the primitives have a vertex in common

@@ -1,4 +1,4 @@
-// Distances of false positives, and errors of times, counted in bins.
+// Histograms of the distances of false positives, and of the errors of times.
 #pragma once
 
 #include <array>
@@ -54,8 +54,8 @@ struct Bin {
 };
 
 /// Counts numbers, called ratios here because most are distances of false positives divided by the claimed
-/// bound. The bins are log-spaced, four to a decade from 10^-16 to 10^1. One more bin holds all smaller
-/// numbers, including 0, and another bin holds all larger numbers.
+/// bound. The bins are log-spaced, four to a decade from 10^-16 to 10^1. One more bin counts all smaller
+/// numbers, including 0, and another bin counts all larger numbers.
 struct Histogram {
   static constexpr int per_decade = 4;
   static constexpr int lowest_decade = -16;

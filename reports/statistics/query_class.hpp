@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// How near a query, or most queries of a family, are to those of a simulation. fuzz/families/README.md has
-/// the criterion by which queries are classified.
+/// Says how near a query is to the queries of a simulation; for a family, how near most of its queries are.
+/// fuzz/families/README.md has the criterion by which queries are classified.
 enum class QueryClass : std::uint8_t {
   ordinary,     ///< queries that a simulation makes in every step
   degenerate,   ///< queries that a simulation makes now and then

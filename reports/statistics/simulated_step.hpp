@@ -1,4 +1,4 @@
-// The steps of simulations with a subject as their CCD.
+// Counters for the steps of simulations that use a subject as their CCD.
 #pragma once
 
 #include <cstdint>

@@ -17,8 +17,8 @@ void CountsSum::add(const std::string& family, const Counts& each) {
 
 namespace {
 
-/// Adds each entry of the second map to the first. Both maps order their keys in the same way, so a key of
-/// `other` usually belongs right after the previous key in `own`.
+/// Adds each entry of the second map to the first. Both maps order their keys in the same way, so the place
+/// of a key of `other` in `own` is usually right after the place of the previous key.
 template <class Entries>
 void merge_entries(Entries& own, const Entries& other) {
   auto place = own.begin();

@@ -44,9 +44,9 @@ struct VersionKey {
   }
 };
 
-/// Counts the queries that both versions were asked, by which of the versions fail. A version fails if it
-/// misses a collision, gives a late time, promises an unsafe step, exceeds its claimed bound, or gives no
-/// answer.
+/// Counts the queries that both versions were asked, with four counters that tell which of the two versions
+/// fail. A version fails if it misses a collision, gives a late time, promises an unsafe step, exceeds its
+/// claimed bound, or gives no answer.
 struct VersionCounts {
   std::uint64_t fixed = 0;    ///< only the earlier version fails
   std::uint64_t broken = 0;   ///< only the later version fails
@@ -82,7 +82,7 @@ struct Statistics {
   SimulatedSteps simulated;                                     ///< steps of simulations
   FactorTable factors;                      ///< answers in the families whose queries have factors
   VersionTable versions;                    ///< compares versions of CCDs, query by query
-  std::map<Signature, std::uint64_t> seen;  ///< number of queries with each signature
+  std::map<Signature, std::uint64_t> seen;  ///< number of queries that failed with each signature
   std::map<std::string, Extreme> extremes;  ///< the key is the name of the tolerance or of the tests
   std::uint64_t oracle_disagreements = 0;   ///< queries about which the exact methods disagree
   std::uint64_t mismatches_with_recorded_truth =
@@ -95,7 +95,7 @@ struct Statistics {
 
   void merge(const Statistics& other);
 
-  /// The counters of each subject and kind, summed over families. The family in each key is empty.
+  /// The counters of each subject and kind, summed over families. In the keys, `family` is empty.
   [[nodiscard]] std::map<CountsKey, CountsSum> by_subject_and_kind() const;
   [[nodiscard]] OracleCounts oracle_total() const;
   /// The number of queries that failed with this signature.

@@ -18,8 +18,9 @@
 
 namespace nearmiss {
 
-/// The run times of batches of queries, as times per query with three significant digits. Times are at least
-/// 1 ns, because a clock cannot distinguish a shorter time from the run time of a subject that does nothing.
+/// The run times of batches of queries. A batch has a time per query, rounded to three significant digits.
+/// This time is at least 1 ns, because a clock cannot distinguish a shorter time from the run time of a
+/// subject that does nothing.
 class BatchTimes {
  public:
   void add(const BatchTime& time);
@@ -51,8 +52,8 @@ struct TimeHistogram {
   void add(std::uint64_t nanoseconds);
   void merge(const TimeHistogram& other);
   [[nodiscard]] std::uint64_t total() const;
-  /// The upper border, in ns, of the bin of a quantile: a fraction `part`, in (0, 1], of all queries took at
-  /// most this time. Nothing if no query was timed.
+  /// The upper border, in ns, of the bin that holds a quantile: a fraction `part` of all queries took at most
+  /// this time; `part` is in (0, 1]. Nothing if no query was timed.
   [[nodiscard]] std::optional<double> quantile(double part) const;
 
   bool operator==(const TimeHistogram&) const = default;
@@ -95,8 +96,8 @@ struct SubjectTimes {
 
   /// The number of queries that were timed in batches.
   [[nodiscard]] std::uint64_t queries() const;
-  /// Time per query in ns: the median time of each pair of kind and family, averaged over these pairs with
-  /// their numbers of queries as weights. Nothing if no query was timed.
+  /// Time per query in ns. For each pair of a kind and a family, takes the median; then takes the mean of
+  /// these medians, weighted by the numbers of queries. Nothing if no query was timed.
   [[nodiscard]] std::optional<double> ns_per_query() const;
   /// Mean time of all timed queries in ns. Unlike the medians, it shows rare slow queries and disturbances.
   /// Nothing if no query was timed.

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// How long to wait while another process reads, opens or closes a store. The wait is short, so that a
-/// process that is told to stop ends within two seconds.
+/// How long a process waits while another process reads, opens or closes the same store. The wait is short,
+/// because a process that is told to stop should end within two seconds.
 constexpr int patience_ms = 1500;
 
 /// Throws Error if the journal beside a store names another file, because SQLite would delete that file when
@@ -44,7 +44,8 @@ void expect_own_journal(const fs::path& file) {
 }
 
 /// Checks a store's journal (expect_own_journal), and returns the path by which SQLite opens the store. The
-/// path is absolute, because SQLite would open no file for the relative path ":memory:".
+/// path is absolute, because for a store with the relative path ":memory:", SQLite would open a database in
+/// memory instead of the file.
 std::string path_for_sqlite(const fs::path& file) {
   expect_own_journal(file);
   return fs::absolute(file).string();
@@ -106,7 +107,7 @@ Connection::Connection(const fs::path& file, int flags)
 
 Connection::~Connection() {
   try {
-    // Waits less than a save does, because all results are already saved.
+    // This waits for a shorter time than a save does, because all results are already saved.
     db.setBusyTimeout(patience_ms / 3);
     // Removes the log, so that users without write permission can read the store.
     db.exec("PRAGMA journal_mode = DELETE");

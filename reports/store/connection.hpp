@@ -10,7 +10,7 @@ namespace nearmiss {
 
 /// A lock held by the process that writes a file. While the process holds the lock, FILE.lock exists next to
 /// the file. A symbolic link to the file leads to the same lock. The operating system releases the lock when
-/// the process ends, in whatever way it ends.
+/// the process ends, even if the process is killed.
 class FileLock {
  public:
   /// Takes the lock. Throws Error if another process holds it, if it cannot be made, or if the file has a
@@ -30,8 +30,9 @@ class FileLock {
 /// remains.
 std::filesystem::path log_of(const std::filesystem::path& file, std::string_view ending);
 
-/// Opens a store to read it. Usually, opening changes nothing. But if a process was killed while it wrote the
-/// store itself, not the log, SQLite uses the journal beside the store to roll back the unfinished change.
+/// Opens a store to read it. Usually, opening changes nothing. But if a process was killed while it wrote to
+/// the store itself (not to its log), SQLite rolls back the unfinished change, for which it uses the journal
+/// beside the store.
 SQLite::Database open_to_read(const std::filesystem::path& file);
 
 /// A connection for writing.

@@ -109,8 +109,8 @@ void write_campaign(Save& save, const Campaign& campaign) {
   write_statistics(save, campaign.statistics);
 }
 
-/// Reads a campaign. If the row of a run was lost, the run has no facts. Throws Error for an invalid value,
-/// and passes on exceptions of `read`.
+/// Reads a campaign. If the row with the facts of a run was lost, the run has no facts. Throws Error for an
+/// invalid value, and passes on exceptions of `read`.
 Campaign read_campaign(Reader& read) {
   std::vector<Run> runs = read_runs(read);
   return {std::move(runs), read_statistics(read)};
@@ -158,7 +158,7 @@ Salvage read_intact(SQLite::Database& db, const Check& check = {}) {
   return salvage;
 }
 
-/// The end of a message about a damaged store: how to salvage it, and how much of the store a salvage would
+/// The end of a message about a damaged store. It says how to salvage the store, and how much a salvage would
 /// save.
 std::string advice(const fs::path& file) {
   try {
@@ -171,23 +171,23 @@ std::string advice(const fs::path& file) {
   }
 }
 
-/// Throws Damage if the structure of the database is damaged. Even if all rows are readable, a save would
-/// then do more damage.
+/// Throws Damage if the structure of the database is damaged. A save into such a database would do more
+/// damage, even if all rows are readable.
 void check_structure(SQLite::Database& db) {
   const std::string found = db.execAndGet("PRAGMA integrity_check(1)").getString();
   if (found != "ok") throw Damage(found.substr(0, found.find('\n')));
 }
 
-/// Whether an error while reading a file means that its contents are damaged, and not, for example, that the
-/// file cannot be opened.
+/// Whether an error that occurred while a file was read means that the contents of the file are damaged.
+/// Other errors mean, for example, that the file cannot be opened.
 bool is_damage(const std::exception& error) {
   if (dynamic_cast<const Damage*>(&error) != nullptr) return true;
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
   return reason != nullptr && reason->getErrorCode() == SQLITE_CORRUPT;
 }
 
-/// The name of the log beside a store, if SQLite fails because a killed process left this log, and SQLite
-/// cannot write in the folder. "" for any other error.
+/// The name of the log beside a store, if `error` occurred because a killed process left this log, and SQLite
+/// may not write in the folder. "" for any other error.
 std::string locked_log(const fs::path& file, const std::exception& error) {
   const auto* const reason = dynamic_cast<const SQLite::Exception*>(&error);
   if (reason == nullptr) return "";
@@ -198,8 +198,8 @@ std::string locked_log(const fs::path& file, const std::exception& error) {
   return "";
 }
 
-/// Reads a store of this version. Throws Error if the store cannot be read. If it is damaged, the message
-/// also says how much a salvage would save.
+/// Reads a store of this version. Throws Error if the store cannot be read. If the store is damaged, the
+/// message of the Error also says how much a salvage would save.
 Campaign read_store(const fs::path& file, bool checks_structure, const Check& check = {}) {
   expect_regular_file(file);
   return naming(file, [&] {
@@ -232,7 +232,7 @@ void refuse_existing(const fs::path& file) {
 struct Store::Database {
   explicit Database(fs::path path) : file(std::move(path)), lock(file) {}
 
-  /// Runs `act` with a Save, which is one transaction, and commits this transaction.
+  /// Passes a Save, which is one transaction, to `act`, and then commits the transaction.
   template <class Act>
   void change(const Act& act) {
     naming(file, [&] {

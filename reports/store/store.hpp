@@ -24,16 +24,17 @@ class StoreIsLocked : public Error {
 /// interrupt or a kill. Only one process at a time writes a file; others may read it meanwhile.
 class Store {
  public:
-  /// Whether the file is a store that can be resumed. A kill while a store is made may leave a database
-  /// without tables, which is no store yet.
+  /// Whether the file is a store that can be resumed. If a process is killed while it makes a store, it may
+  /// leave a database without tables, which is not yet a store.
   static bool exists(const std::filesystem::path& file);
-  /// Removes a store that no process has open, and the log that SQLite leaves beside it if the disk is full.
+  /// Removes a store that no process has open, and the logs that SQLite leaves beside the store if the disk
+  /// is full.
   static void remove(const std::filesystem::path& file);
   /// Makes a new file for a run and its shard. Throws Error if the file exists, or cannot be made.
   Store(const std::filesystem::path& file, const RunInfo& info, const Shard& shard);
-  /// Opens a file to resume its run. Throws Error unless the file is a store of one shard of one run, and no
-  /// other process writes it. If `found` is given, it receives the contents of the file. If `check` is given,
-  /// it is called before each row is read, and may end the reading by an exception.
+  /// Opens a file to resume its run. Throws Error if the file is not a store with exactly one run and one
+  /// shard, or if another process writes the file. If `found` is given, it receives the contents of the file.
+  /// If `check` is given, it is called before each row is read, and may end the reading by an exception.
   explicit Store(const std::filesystem::path& file, Campaign* found = nullptr,
                  const std::function<void()>& check = {});
   ~Store();
@@ -67,13 +68,14 @@ struct Salvage {
   std::string lost;        ///< such as "3 of 20 rows of counts"; "" if nothing was lost
 };
 
-/// Reads all intact rows of a store: those that match their checksums. Does not check the version in the
-/// file, which may be damaged; no row of another version counts as intact, because the checksums include the
-/// version. Throws Error if the file cannot be read, or has no intact row.
+/// Reads all intact rows of a store, which are the rows that match their checksums. Does not check the
+/// version number in the file, because the number may be damaged. Rows of a store of another version do not
+/// count as intact, because the checksums include the version. Throws Error if the file cannot be read, or
+/// has no intact row.
 Salvage salvage_campaign(const std::filesystem::path& file);
 
-/// Writes a campaign to a new file; after an error, there is no new file. Throws Error if the file exists or
-/// cannot be written.
+/// Writes a campaign to a new file. Throws Error if the file already exists or cannot be written. If writing
+/// fails, no part of the file remains.
 void write_campaign(const Campaign& campaign, const std::filesystem::path& file);
 
 }  // namespace nearmiss

@@ -40,8 +40,8 @@ std::string schema() {
   return text;
 }
 
-/// Whether the database has a table, not a view, with this name. Does not let SQLite expand a view: a view
-/// of a hostile store may take endless time, even if nothing reads it.
+/// Whether the database has a table with this name; a view is not a table. Does not let SQLite expand a view,
+/// because in a hostile store this may take endless time, even if nothing reads the view.
 bool is_table(SQLite::Database& db, const std::string& name) {
   const int result = sqlite3_table_column_metadata(db.getHandle(), "main", name.c_str(), nullptr, nullptr,
                                                    nullptr, nullptr, nullptr, nullptr);
@@ -49,8 +49,8 @@ bool is_table(SQLite::Database& db, const std::string& name) {
   return result == SQLITE_OK;
 }
 
-/// Whether a table exists and all its columns are plain data in the file. In a hostile store, SQLite might
-/// have to compute the columns: those of a view over an endless recursion, or generated columns.
+/// Whether a table exists and all its columns are plain data in the file. In a hostile store, the columns may
+/// be computed: they may be generated columns, or the columns of a view over an endless recursion.
 bool is_plain(SQLite::Database& db, const std::string& table) {
   if (!is_table(db, table)) return false;
   SQLite::Statement column(db, fmt::format("PRAGMA main.table_xinfo({})", table));
@@ -75,15 +75,15 @@ std::uint64_t bytes_of(SQLite::Database& db) {
   return bytes;
 }
 
-/// Limits how much of a table is read. In a hostile store, a few bytes can claim any number of rows, and
-/// many rows can share one long chain of pages.
+/// Limits how much of a table is read. In a hostile store, a few bytes can claim that a table has any number
+/// of rows, and many rows can share one long chain of pages.
 class Limits {
  public:
   explicit Limits(std::uint64_t bytes_of_store) : bytes_(bytes_of_store), unread_(bytes_of_store) {}
 
   /// The largest number of row ids that are looked up.
   [[nodiscard]] std::uint64_t rows() const {
-    constexpr std::uint64_t least_bytes = 16;  // of a row: checksum, lengths, key, value
+    constexpr std::uint64_t least_bytes = 16;  // of a row: its checksum, lengths, key and value
     constexpr std::uint64_t most = 1'000'000;
     return std::min(bytes_ / least_bytes, most);
   }
@@ -96,7 +96,8 @@ class Limits {
     return fits;
   }
 
-  /// Counts a row that cannot be read because of damaged pages. Returns whether to try another row.
+  /// Counts a row that cannot be read because of damaged pages. Returns whether the reader should try another
+  /// row.
   bool fail() {
     constexpr int most = 1'000;
     return ++failed_ < most;
@@ -156,7 +157,7 @@ ContentsByTable read_contents(SQLite::Database& db) {
   return contents;
 }
 
-/// The largest row id of a plain table; any number if the table is damaged.
+/// The largest row id of a plain table. If the table is damaged, this may be any number.
 std::uint64_t last_row(SQLite::Database& db, const std::string& table) {
   SQLite::Statement last(db, fmt::format("SELECT max(rowid) FROM {}", table));
   if (last.tryExecuteStep() != SQLITE_ROW) return 0;

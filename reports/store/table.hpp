@@ -39,9 +39,9 @@ void expect_store(SQLite::Database& db);
 /// the value.
 std::int64_t checksum(const std::string& table, const std::string& key, const std::string& value);
 
-/// The number of rows of a table, and the sum of the rows' checksums modulo 2^64. Both numbers reveal rows
-/// that are missing, doubled, or left from an earlier save. The table `contents` has both numbers for every
-/// other table; a save updates the numbers without reading rows that it does not change.
+/// The number of rows of a table, and the sum of the rows' checksums modulo 2^64. These two numbers reveal
+/// rows that are missing, doubled, or left from an earlier save. The table `contents` has the two numbers for
+/// every other table. A save updates them without reading the rows that it does not change.
 struct Contents {
   std::uint64_t rows = 0, sum = 0;
 
@@ -55,7 +55,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Contents, rows, sum)
 
 using ContentsByTable = std::map<std::string, Contents>;
 
-/// Reads the intact rows of a store, those that match their checksums, and notes how many rows are lost.
+/// Reads the intact rows of a store, which are the rows that match their checksums, and notes how many rows
+/// are lost.
 class Reader {
  public:
   /// The reader calls `check`, if given, before it reads a row. `check` may end the reading by an exception.
@@ -71,7 +72,7 @@ class Reader {
 
   /// The number of rows that were read.
   [[nodiscard]] std::uint64_t rows() const { return rows_; }
-  /// What was lost, by table, in words such as "3 of 20 rows of counts".
+  /// For each table with losses, a text that says what was lost, such as "3 of 20 rows of counts".
   [[nodiscard]] const std::map<std::string, std::string>& lost() const { return lost_; }
 
  private:
@@ -85,7 +86,8 @@ class Reader {
   std::map<std::string, std::string> lost_;
 };
 
-/// Changes a store in one transaction. `commit` ends the transaction; without it, nothing changes.
+/// Changes a store in one transaction. `commit` ends the transaction; without a call of `commit`, nothing
+/// changes.
 class Save {
  public:
   /// Makes the tables if the database is empty. Throws Damage if the table of contents is damaged.

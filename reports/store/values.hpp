@@ -1,5 +1,6 @@
-// Conversions between a campaign's values and JSON, in the form that the JSON library expects. from_json
-// restores exactly what to_json wrote; for anything else it throws Error, or an exception of the library.
+// Functions that convert a campaign's values to JSON and back, in the form that the JSON library expects.
+// from_json restores exactly what to_json wrote; for anything else it throws Error, or an exception of the
+// library.
 #pragma once
 
 #include <fmt/format.h>
@@ -128,7 +129,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FindingWithoutErrors, what, subject, family, 
                                    signature, shrunk, place, time, is_shrunk, query_class, simplest,
                                    simplest_class, broken_since, bound, step, certificate)
 
-/// The lines of `errors` become texts of their own, because texts in a store have no line ends.
+/// Each line of `errors` becomes a separate text, because texts in a store have no line ends.
 inline void to_json(nlohmann::json& json, const Finding& finding) {
   json = FindingWithoutErrors{finding};
   if (!finding.errors.empty()) json["errors"] = error_lines(finding);

@@ -68,7 +68,8 @@ std::string json_text(const Json& json, int indent = -1) {
 
 /// Parses JSON into nlohmann::json or nlohmann::ordered_json. Throws Error if the text is not JSON, has more
 /// than 32 levels of brackets (functions walk JSON recursively), or contains a string that is not printable.
-/// nearmiss never writes such a string. It could change how a terminal, a page or a case shows other text.
+/// nearmiss never writes a string that is not printable, because such a string could change how a terminal, a
+/// page or a case shows other text.
 template <class Json>
 Json parse_json(std::string_view text);
 

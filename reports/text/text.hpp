@@ -19,7 +19,7 @@ std::string columns(const std::vector<std::vector<std::string>>& rows, std::size
 /// 1234567 as "1,234,567".
 std::string with_separators(std::uint64_t number);
 
-/// A part of a total as "12.3 %"; "" if the total is 0.
+/// `part` as a percentage of `total`, such as "12.3 %"; "" if the total is 0.
 std::string percent(std::uint64_t part, std::uint64_t total);
 
 /// The number that the whole text represents; nothing if the text is not a number.
@@ -28,9 +28,10 @@ std::optional<double> number_in(std::string_view text);
 /// A time in ns, rounded to a whole number; "-" if the time is not known.
 std::string whole_ns(const std::optional<double>& ns);
 
-/// A ratio distance / bound with three digits, or with more if a ratio below 1 would be rounded to 1. "below
-/// 1e-16" for a ratio in the lowest bin of a Histogram, because only an upper bound of such a ratio is
-/// known. "inf" for the largest double, which stands for a distance divided by a bound of 0.
+/// A ratio distance / bound with three digits, or with more digits if three digits would round a ratio below
+/// 1 to 1. The text is "below 1e-16" for a nonzero ratio in the lowest bin of a Histogram, because only an
+/// upper bound of such a ratio is known. The text is "inf" for the largest double, which stands for a
+/// distance divided by a bound of 0.
 std::string fraction_of_bound(double ratio);
 
 /// "at 0.987 of the bound", "at 1.5 times the bound", or "beyond a bound of 0". If the subject claims no
@@ -46,8 +47,8 @@ inline constexpr const char* unit_footnote =
 std::string counted(std::uint64_t count, std::string_view one, std::string_view many);
 
 /// Breaks a text into lines of at most `widest` columns, at blanks where possible. Begins each line after the
-/// first with `indent`, and cuts off what does not fit into `most_lines` lines. The default of `widest`
-/// suits test frameworks, which break longer lines.
+/// first with `indent`, and cuts off the text that does not fit into `most_lines` lines. The default of
+/// `widest` suits test frameworks, which break longer lines.
 std::string wrapped(std::string text, std::string_view indent, std::size_t most_lines,
                     std::size_t widest = 79);
 

@@ -66,7 +66,7 @@ std::uint64_t parse_size(std::string_view text, std::string_view option) {
   const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
   const auto number = digits(text.substr(0, end));
   const std::string_view unit = text.substr(end);
-  // The factor is also 0 if the unit is unknown.
+  // If the unit is unknown, `power` is 0, too.
   const std::size_t power = unit.empty() ? 0 : units.find(unit.front()) + 1;
   const std::string_view rest = unit.substr(std::min<std::size_t>(unit.size(), power == 0 ? 0 : 1));
   const bool is_unit = rest.empty() || rest == "B" || (power != 0 && rest == "iB");
