@@ -1,13 +1,13 @@
 // Makes plug-ins from functions with the field's usual signatures, in C++17. The source of a plug-in includes
-// the header of the functions, then this one, and describes a detector. tools/subject compiles it:
+// the header of the functions, then this header, and describes a detector. tools/subject compiles the source:
 //
 //   #include "mine.hpp"
 //   #include "ccd/nearmiss_functions.hpp"
 //   NEARMISS_SUBJECT(detector("mine").vertex_triangle(point_triangle_ccd).edge_edge(edge_edge_ccd))
 //
-// This header recognises the signature of each function. V stands for the vertices x0 x1 .. at t = 0, then
-// those at t = 1: 8 arguments for vt and ee, 6 for ve, 4 for vv. X stands for the vertices at t = 0, D for
-// their displacements, and h for the separation:
+// This header recognises the signature of each function. V stands for the positions of the vertices x0 x1 ..
+// at t = 0, then their positions at t = 1: 8 arguments for vt and ee, 6 for ve, 4 for vv. X stands for the
+// positions at t = 0, D for their displacements, and h for the separation:
 //
 //   signature                                          as in                gives times       takes h
 //   bool f(V, double& toi, double h, double tmax)      ipc-toolkit          lower bounds      yes
@@ -19,14 +19,14 @@
 //   Answer f(const Question&)                          everything else      none              no
 //
 // The compiler does not notice if a function takes its vertices in another order, such as the triangle first,
-// or if its numbers, such as toi, mean something else than in the table. Call such a function from a function
-// that takes a Question (fuzz/subjects/peers/ has examples). If the functions of a detector give times of
-// different sorts, the detector claims the weakest sort.
+// or if its numbers, such as toi, have another meaning than in the table. Call such a function from a
+// function that takes a Question (fuzz/subjects/peers/ has examples). If the functions of a detector give
+// times of different sorts, the detector claims the weakest sort.
 //
-// A function with the signature of Codim-IPC gets eta = 0.1, toi = 1 and rounded displacements. It gets the
-// query's separation as the thickness h. A function may take a vertex as a const double*, as a vector of
-// Eigen if Eigen is included before this header, or as a type T for which T{x, y, z} takes three numbers. A
-// function may return `int` in place of `bool`.
+// A function with the signature of Codim-IPC gets eta = 0.1, toi = 1, rounded displacements, and the query's
+// separation as the thickness h. A function may take a vertex as a const double*, as a vector of Eigen if
+// Eigen is included before this header, or as a type T for which T{x, y, z} takes three numbers. A function
+// may return `int` in place of `bool`.
 //
 // If a function f is overloaded, has default arguments or is a member, pass NEARMISS_CALL(f), such as
 // NEARMISS_CALL(ipc::AdditiveCCD().edge_edge_ccd). set() sets any field of nearmiss_subject.h, even if the
@@ -175,8 +175,8 @@ template <class F, class... Argument>
 constexpr bool answers<std::void_t<std::invoke_result_t<const F&, Argument...>>, F, Argument...> =
     is_answer<std::invoke_result_t<const F&, Argument...>>;
 
-/// Asks a function of type F about queries of one kind, as its signature requires. `State` is the tuple of
-/// the arguments before those that the table above lists: the options, or nothing.
+/// Asks a function of type F about queries of one kind, as its signature requires. `State` is a tuple of the
+/// arguments that come before the arguments in the table above: the options, or nothing.
 template <class F, class State, int kind>
 class Asked {
   using Vertices = std::make_index_sequence<vertices_of(kind)>;
@@ -274,7 +274,8 @@ template <class F, class... Argument>
 constexpr bool gives_number<F, std::tuple<Argument...>> =
     std::is_invocable_r_v<double, const F&, Argument...>;
 
-/// The distance that f gives for the primitives with the coordinates x. `front` has f's first arguments.
+/// The distance that f gives for the primitives with the coordinates x. `front` has the arguments that f
+/// takes before the vertices.
 template <class F, class Front, std::size_t... i>
 double distance_by(const F& f, const Front& front, const double* x, std::index_sequence<i...> /*vertices*/) {
   auto arguments = std::tuple_cat(front, std::tuple(Point(x + 3 * i)...));
@@ -368,7 +369,7 @@ struct Detector {
     return changed;
   }
 
-  /// Lets the user set the options that `settings` lists, by KEY=NUMBER. Every function then gets, as its
+  /// Lets the user set, by KEY=NUMBER, the options that `settings` lists. Every function then gets, as its
   /// first argument, a struct whose members have the values of the options.
   template <const auto& settings>
   auto options() const {

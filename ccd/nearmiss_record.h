@@ -3,15 +3,15 @@
  *
  *   nearmiss_record(NEARMISS_EDGE_EDGE, x, h, 1, answer, toi, 0);
  *
- * The file of these records has a fixed size; the latest records replace the oldest:
+ * The records go to a file of a fixed size. When the file is full, the latest records replace the oldest:
  *
  *   NEARMISS_RECORD=run.nmq ./simulation                 $NEARMISS_RECORD_BYTES is the size; by default 64M
  *   nearmiss replay run.nmq --as-answered                judges the answers
  *
- * If the environment variable NEARMISS_RECORD is not set, a call costs about a nanosecond. If it is set, any
- * number of threads may record at once, and a forked child process records to the file of its parent. If
- * another process, or a shared object with a recorder of its own, already records to run.nmq, the name of the
- * new file contains the number of the process that writes it: run-4711.nmq. If run.nmq is a finished
+ * If the environment variable NEARMISS_RECORD is not set, a call costs about a nanosecond. If the variable is
+ * set, any number of threads may record at once, and a forked child process records to the file of its
+ * parent. If another process, or a shared object with a recorder of its own, already records to run.nmq, the
+ * records go to a file whose name contains the number of this process: run-4711.nmq. If run.nmq is a finished
  * recording, it is first renamed to run.nmq~. If the program crashes, only the records that were being
  * written are lost. If the disk has no room for the file, a line on stderr says so, and nothing is
  * recorded. */
@@ -51,9 +51,9 @@
 #define NEARMISS_UNKNOWN 2 /* cannot tell */
 #endif
 
-/* A flag that keeps a record longer: the records with this flag fill a part of the file of their own, so
- * records without the flag do not replace them. Set the flag for queries that matter, such as slow ones,
- * those with a time of impact of 0, and those of a step that ends in an intersection. */
+/* A flag that keeps a record longer. The records with this flag fill a separate part of the file, so records
+ * without the flag do not replace them. Set the flag for queries that matter, such as slow queries, queries
+ * with a time of impact of 0, and the queries of a step that ends in an intersection. */
 #define NEARMISS_KEEP 1
 
 /* Values in the header of a recording. */
@@ -61,8 +61,8 @@
 #define NEARMISS_RECORDING_VERSION 1
 #define NEARMISS_RECORDING_BYTE_ORDER 0x01020304
 
-/* The header of a recording. In the file, it is followed by `slots` records without the flag NEARMISS_KEEP,
- * then by `kept_slots` records with this flag. */
+/* The header of a recording. In the file, the header is followed by `slots` records without the flag
+ * NEARMISS_KEEP, then by `kept_slots` records with this flag. */
 typedef struct {
   char magic[8];
   uint32_t version, byte_order;
@@ -85,7 +85,7 @@ typedef struct {
 } nearmiss_record_slot;
 
 /* The recorder. All source files of the program share it, and so do all shared objects that can see the
- * symbol. */
+ * symbol nearmiss_the_recorder. */
 typedef struct {
   int state;  /* 0: not yet known; 1: off; 2: on; 3: a thread is opening the file */
   int opener; /* the process that opens the file, while `state` is 3 */
@@ -117,9 +117,9 @@ __attribute__((unused)) static int nearmiss_record_fails(const char* file, const
   return 0;
 }
 
-/* Opens and locks a new file with the name `file`, and returns its descriptor. Renames an earlier file with
- * this name to `file`~ unless a process uses it. Returns -1 after an error; errno is EWOULDBLOCK if a process
- * uses the earlier file. */
+/* Opens and locks a new file with the name `file`, and returns its descriptor. An earlier file with this name
+ * is renamed to `file`~, unless a process uses the earlier file. Returns -1 after an error; errno is
+ * EWOULDBLOCK if a process uses the earlier file. */
 __attribute__((unused)) static int nearmiss_record_open(const char* file) {
   struct stat found, named;
   char earlier[4097];
@@ -159,8 +159,8 @@ __attribute__((unused)) static int nearmiss_record_open(const char* file) {
 }
 
 /* Opens a new file with the name `file`. If another process or shared object uses that file, opens instead a
- * new file whose name also contains the number of this process. Writes the name of the file that it opened
- * to `own`. */
+ * new file whose name also contains the number of this process. Writes the name of the opened file to
+ * `own`. */
 __attribute__((unused)) static int nearmiss_record_open_own(const char* file, char* own, size_t size) {
   const char* dot = strrchr(file, '.');
   const size_t stem = dot == NULL || strchr(dot, '/') != NULL ? strlen(file) : (size_t)(dot - file);
@@ -177,8 +177,8 @@ __attribute__((unused)) static int nearmiss_record_open_own(const char* file, ch
   return fd;
 }
 
-/* Whether this process may write a file of this size. Writing beyond the limit on the size of the process's
- * files would raise a signal that ends the program. */
+/* Whether this process may write a file of this size. The system may limit the size of a process's files, and
+ * writing beyond this limit would raise a signal that ends the program. */
 __attribute__((unused)) static int nearmiss_record_may_have(size_t size) {
   struct rlimit limit;
   return getrlimit(RLIMIT_FSIZE, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || size <= limit.rlim_cur;

@@ -1,5 +1,6 @@
-// Checks and sets what nearmiss needs of floating-point arithmetic: the compiler follows IEEE 754, and
-// arithmetic is plain, that is, it rounds to nearest, keeps subnormals and does not trap.
+// nearmiss needs a compiler that follows IEEE 754, and plain arithmetic: arithmetic that rounds to nearest,
+// keeps subnormals and does not trap. This header checks the compiler, and checks and sets the processor's
+// mode.
 #pragma once
 
 #include <cfenv>
@@ -48,7 +49,7 @@ inline void make_arithmetic_plain() {
 }
 
 /// Makes this thread's arithmetic plain while the object exists, then restores the caller's mode. Every entry
-/// point whose results are proven only for plain arithmetic has such an object. A build with
+/// point whose results are proven only for plain arithmetic creates such an object. A build with
 /// NEARMISS_UNGUARDED keeps the caller's mode.
 class PlainArithmetic {
  public:

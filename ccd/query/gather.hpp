@@ -106,7 +106,7 @@ class Reader {
   }
 
   const nearmiss_queries& queries_;
-  std::size_t vertices_;  ///< of each query
+  std::size_t vertices_;  ///< the number of vertices of a query
   bool is_packed_;
 };
 
@@ -123,9 +123,9 @@ inline Query query_at(const nearmiss_queries& queries, std::size_t q) {
 /// The largest number of queries that for_blocks() passes to `visit` at once.
 inline constexpr std::size_t block_size = 256;
 
-/// Divides `count` queries into blocks of at most `most`, and calls visit(block_of(first, size), first) for
-/// each block. `first` is the index of the block's first query, and `size` the number of its queries. Returns
-/// the last status of `visit` that is not NEARMISS_OK, or NEARMISS_OK if there is none.
+/// Divides `count` queries into blocks of at most `most` queries, and calls visit(block_of(first, size),
+/// first) for each block. `first` is the index of the block's first query, and `size` the number of its
+/// queries. Returns the last status of `visit` that is not NEARMISS_OK, or NEARMISS_OK if there is none.
 template <class BlockOf, class Visit>
 int for_parts(std::size_t count, std::size_t most, const BlockOf& block_of, const Visit& visit) {
   int status = NEARMISS_OK;

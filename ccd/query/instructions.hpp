@@ -20,7 +20,8 @@ constexpr int lanes(Instructions instructions) { return 2 << static_cast<int>(in
 bool has(Instructions instructions);
 Instructions widest_instructions();
 
-/// The instruction set that this process uses: the widest one, unless choose_instructions() chose another.
+/// The instruction set that this process uses: widest_instructions(), unless choose_instructions() chose
+/// another set.
 Instructions chosen_instructions();
 /// Chooses the instruction set with the given number of lanes, "2", "4" or "8", for the whole process. Throws
 /// Error for any other number, or if this machine lacks the instruction set. No other thread may run during

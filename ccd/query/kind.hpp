@@ -15,7 +15,7 @@ namespace nearmiss {
 enum class Kind : std::uint8_t {
   vertex_triangle,  ///< x0 is the vertex, x1 x2 x3 the triangle
   edge_edge,        ///< x0x1 and x2x3 are the edges
-  vertex_vertex,    ///< x0 and x1
+  vertex_vertex,    ///< x0 and x1 are the vertices
   vertex_edge,      ///< x0 is the vertex, x1x2 the edge
 };
 
@@ -46,7 +46,8 @@ struct VertexAndEdge {
 };
 
 /// A kind's names, its primitives with their edges, and the pairs of features (two vertices, or a vertex and
-/// an edge) of different primitives. No other place in the code lists them.
+/// an edge) of different primitives. The table `of_kinds` below is the only place in the code that lists
+/// these facts.
 struct Topology {
   std::string_view short_name;        ///< on the command line, in files and in reports: "vt"
   std::string_view name;              ///< in prose and names of functions: "vertex_triangle"
@@ -58,7 +59,7 @@ struct Topology {
   /// kind vv counts as a vertex x0 and an edge x1x2 of length 0.
   std::span<const VertexAndEdge> vertices_and_edges;
   std::span<const VertexAndEdge> first_to_second;  ///< the pairs whose vertex is in the first primitive
-  std::span<const VertexAndEdge> second_to_first;  ///< those with a vertex of the second primitive
+  std::span<const VertexAndEdge> second_to_first;  ///< the pairs whose vertex is in the second primitive
   /// The paper's vectors p, q and r, each as x_to - x_from. N = q × r is the normal, and F = p · N is the
   /// coplanarity (§3.3, §3.4).
   std::array<VertexPair, 3> pqr;
@@ -131,8 +132,8 @@ constexpr const Topology& topology(Kind kind) { return topologies::of_kinds[stat
 /// "vt", "ee", "vv" or "ve".
 constexpr std::string_view short_name(Kind kind) { return topology(kind).short_name; }
 
-/// The number of vertices of the first primitive. They are x[0 .. split); those of the second primitive are
-/// x[split .. vertices).
+/// The number of vertices of the first primitive. These vertices are x[0 .. split); the vertices of the
+/// second primitive are x[split .. vertices).
 constexpr int split(Kind kind) { return static_cast<int>(topology(kind).first); }
 
 /// Whether the kind is one of kinds_of_meshes.
@@ -146,9 +147,10 @@ constexpr int vertices(Kind kind) { return split(kind) + static_cast<int>(topolo
 /// The number of coordinates of a query: three for each vertex at t = 0, and three at t = 1.
 constexpr std::size_t coordinate_count(Kind kind) { return static_cast<std::size_t>(6 * vertices(kind)); }
 
-/// Whether the formulas for a vertex and a triangle apply, as they do for all kinds but two edges (see
+/// Whether the formulas for a vertex and a triangle apply. They apply to all kinds except edge-edge (see
 /// Query). A point of the triangle is x1 + α (x2 - x1) + β (x3 - x1) with α, β >= 0 and α + β <= 1. For two
-/// edges, a point of the first edge has the weight α, and a point of the second the weight β, both in [0, 1].
+/// edges, a point of the first edge has the weight α, and a point of the second edge has the weight β. Both
+/// weights are in [0, 1].
 constexpr bool has_triangle(Kind kind) { return kind != Kind::edge_edge; }
 
 /// The number of a kind in the C interfaces, such as NEARMISS_VERTEX_TRIANGLE. Sums of such numbers are sets

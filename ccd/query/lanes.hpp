@@ -16,8 +16,9 @@
 
 namespace nearmiss {
 
-/// A vector of n doubles, its lanes. An operation acts on each lane as on a double. With n = 2, 4 or 8, the
-/// compiler keeps a vector in an SSE2, AVX or AVX-512 register if it compiles for that instruction set.
+/// A vector of n doubles, which are called its lanes. An operation acts on each lane as it acts on a double.
+/// With n = 2, 4 or 8, the compiler keeps a vector in an SSE2, AVX or AVX-512 register if it compiles for
+/// that instruction set.
 template <int n>
 struct Lanes {
   using Vector [[gnu::vector_size(n * sizeof(double))]] = double;
@@ -106,8 +107,8 @@ struct Lanes {
   static void transpose(Lanes* rows) { transpose<n / 2>(rows); }
 
  private:
-  /// Transposes each block of 2s × 2s numbers: exchanges its two off-diagonal quarters, then transposes all
-  /// quarters by calling itself for s/2.
+  /// Transposes each block of 2s × 2s numbers: exchanges the block's two off-diagonal quarters, then
+  /// transposes all four quarters by calling itself for s/2.
   template <int s>
   static void transpose(Lanes* rows) {
     for (int i = 0; i < n; ++i)

@@ -39,11 +39,11 @@ extern "C" {
 #define NEARMISS_COLLISION 1    /**< the distance is at most the separation at some time */
 #define NEARMISS_NO_ANSWER (-1) /**< a number is not finite, or the separation is negative */
 
-/* What a function returns. */
+/* The status that a function returns. */
 #define NEARMISS_OK 0         /**< all queries are answered */
 #define NEARMISS_NOT_FINITE 1 /**< all queries are answered, some of them by NEARMISS_NO_ANSWER, or by NaN */
 #define NEARMISS_BAD_ARGUMENT \
-  2 /**< nothing is answered: a null pointer, a number out of range, or a separation that wang does not take */
+  2 /**< no answers: a null pointer, a number out of range, or a separation that wang does not take */
 #define NEARMISS_OUT_OF_MEMORY 3 /**< some queries are not answered */
 
 /** Queries of one kind. Each has n = nearmiss_vertices(kind) vertices. Coordinate k (0 to 2) of
@@ -63,9 +63,9 @@ typedef struct {
   ptrdiff_t query_stride;      /**< from a query to the next, in bytes */
   ptrdiff_t vertex_stride;     /**< from a vertex to the next, in bytes */
   ptrdiff_t coordinate_stride; /**< from a coordinate to the next, in bytes */
-  const int32_t* vertices;     /**< the numbers v, n for each query; or null */
+  const int32_t* vertices;     /**< n numbers v for each query, or null */
   const double* separation;    /**< h of the first query; null: h = 0 for all */
-  ptrdiff_t separation_stride; /**< from the h of a query to the next, in bytes; 0 if all share one */
+  ptrdiff_t separation_stride; /**< from the h of a query to the next, in bytes; 0 if all share one h */
 } nearmiss_queries;
 
 /** The number of vertices of a query of this kind; 0 if `kind` is not a kind. */
@@ -84,7 +84,7 @@ static inline int nearmiss_vertices(int kind) {
 }
 
 /** Queries whose vertices lie one after another, three coordinates each. Each query begins `query_size`
- * coordinates after the one before. */
+ * coordinates after the query before it. */
 static inline nearmiss_queries nearmiss_of_points(int kind, int type, size_t count, const int32_t* vertices,
                                                   const void* start, const void* end, ptrdiff_t query_size) {
   const ptrdiff_t of_float = sizeof(float);

@@ -25,10 +25,10 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 /// coordinates x(0) and x(1). The question is whether the distance of the primitives is at most the
 /// separation h at some t in [0, 1]. Primitives that touch have the distance 0, so h = 0 asks for contact.
 ///
-/// A query with fewer than four vertices repeats its last vertex up to x3 (repeat_vertices). So queries of
-/// every kind but two edges can be treated as a vertex and a triangle; the triangle may be only an edge or a
-/// point. The unit of length is arbitrary. Coordinates are finite; the functions that read queries refuse
-/// infinities and NaN.
+/// A query with fewer than four vertices repeats its last vertex up to x3 (repeat_vertices). So code can
+/// treat queries of every kind except edge-edge as a vertex and a triangle; the triangle may be only an edge
+/// or a point. The unit of length is arbitrary. Coordinates are finite; the functions that read queries
+/// refuse infinities and NaN.
 struct Query {
   Kind kind{};  ///< the kind of the pair
   /// The coordinates x, y, z of x0, x1, x2 and x3 at t = 0, then those at t = 1.
@@ -65,7 +65,7 @@ inline void repeat_vertices(Query& query) {
   }
 }
 
-/// The query with these coordinates: those of its vertices at t = 0, then those at t = 1.
+/// The query whose vertices have these coordinates, first at t = 0, then at t = 1.
 template <class Number>
 Query query_of(Kind kind, const Number* coordinates) {
   Query query{.kind = kind};
@@ -89,7 +89,7 @@ inline std::vector<double> coordinate_list(const Query& query) {
   return list;
 }
 
-/// The query of the same primitives for another separation; 0 asks for contact.
+/// The query of the same primitives with another separation; 0 asks for contact.
 inline Query with_separation(Query query, double separation) {
   query.separation = separation;
   return query;

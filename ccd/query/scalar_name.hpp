@@ -20,7 +20,7 @@ constexpr ScaledName split_scalar(std::string_view name) {
 }
 
 namespace ladder {
-/// The fewest and the most bits of a scalar p16 .. p256.
+/// The numbers of bits of the narrowest and the widest scalar, p16 and p256.
 inline constexpr int fewest_bits = 16, most_bits = 256;
 }  // namespace ladder
 

@@ -1,4 +1,4 @@
-// Subjects that decide batches.
+// Subjects that decide queries in batches.
 #pragma once
 
 #include <span>
@@ -9,7 +9,8 @@
 
 namespace nearmiss {
 
-/// A subject whose derived class implements decide() for batches. A single query is a batch of one.
+/// A subject whose derived class implements decide() for batches. A single query is decided as a batch of one
+/// query.
 class BatchSubject : public Subject {
  public:
   explicit BatchSubject(std::string name) : name_(std::move(name)) {}

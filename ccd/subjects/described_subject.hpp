@@ -1,4 +1,4 @@
-// Subjects that a detector describes.
+// Subjects whose properties a detector states.
 #pragma once
 
 #include <string>

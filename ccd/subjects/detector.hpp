@@ -32,9 +32,9 @@ struct DetectorInfo {
   bool operator==(const DetectorInfo&) const = default;
 };
 
-inline constexpr std::size_t most_detectors = 64;         ///< in a shared object
-inline constexpr std::size_t longest_name = 255;          ///< in bytes
-inline constexpr std::size_t largest_batch = 10'000'000;  ///< in queries
+inline constexpr std::size_t most_detectors = 64;         ///< the most detectors in a shared object
+inline constexpr std::size_t longest_name = 255;          ///< the longest name of a detector, in bytes
+inline constexpr std::size_t largest_batch = 10'000'000;  ///< the largest batch, in queries
 
 /// Says how a nearmiss_subject contradicts the rules of nearmiss_subject.h; "" if it follows all of them.
 std::string fault_of(const nearmiss_subject& subject);
@@ -52,11 +52,11 @@ bool gives_distance(const DetectorInfo& info, Kind kind);
 bool filters_step(const DetectorInfo& info, Kind kind);
 bool takes_separation(const DetectorInfo& info, Kind kind);
 /// The query that a detector decides in place of `query`. If the detector takes floats (`is_narrow`), all
-/// numbers are rounded to float, and numbers beyond the range of float become the largest float of their
-/// sign.
+/// numbers are rounded to float, and a number beyond the range of float becomes the largest float with the
+/// number's sign.
 Query rounded_for(const DetectorInfo& info, const Query& query);
-/// Writes the coordinates of query i of a batch of n queries to the places in `x` from which a detector reads
-/// them.
+/// Writes the coordinates of query i of a batch of n queries to `x`, at the places from which a detector
+/// reads the coordinates.
 void lay_out(const DetectorInfo& info, const Query& query, std::size_t i, std::size_t n, double* x);
 /// The verdict for a detector's answer and time of impact, which is NaN if the detector gave none.
 Verdict verdict_of(const DetectorInfo& info, int answer, double time);
@@ -83,8 +83,8 @@ class PluginLibrary {
   std::vector<const nearmiss_subject*> subjects_;  // `library_` owns them
 };
 
-/// A detector that is open, for one thread. Arithmetic is plain (arithmetic.hpp) after each call, whatever
-/// the detector does.
+/// An open detector, which only one thread may use at a time. Arithmetic is plain (arithmetic.hpp) after each
+/// call, whatever the detector does.
 class Detector {
  public:
   /// Opens the detector that `subject` describes. `subject` must outlive this object. Throws Error if the

@@ -24,8 +24,8 @@ bool is_file(std::string_view path);
 /// Whether a subject's name names a program or a shared object. The path of a shared object must have a '/'.
 bool is_plugin(std::string_view name);
 
-/// A name on the command line, PATH[:SUBJECT][:KEY=VALUE]..., divided into its parts. The path is the
-/// shortest prefix that has a '/', is a file, and ends at a ':' or at the end of the name.
+/// The parts of a subject's name on the command line, which has the form PATH[:SUBJECT][:KEY=VALUE].... The
+/// path is the shortest prefix that has a '/', is a file, and ends at a ':' or at the end of the name.
 struct PluginName {
   std::string path;
   std::string subject;  ///< the name of a detector of the shared object; "" if the command line names none

@@ -11,15 +11,15 @@
 
 namespace nearmiss {
 
-/// The number of queries that a subject decides before the timing of its batch begins. They bring the
-/// subject's code back into the caches.
+/// The number of queries that a subject decides before the timing of its batch begins. These queries bring
+/// the subject's code back into the caches.
 inline constexpr std::size_t warm_up_queries = 8;
 
-/// Measures, by two clocks, the time since its construction. Reading the wall clock takes only about 20 ns,
-/// but this clock also counts the time in which another process has the processor. The CPU clock counts only
-/// the time of this thread, or of all threads of this process, but is less precise. So the result is the
-/// shorter of the two times. If the work itself waited for a device or a thread, the result is the time by
-/// the wall clock.
+/// Measures the time since its construction by two clocks. Reading the wall clock takes only about 20 ns, but
+/// this clock also counts the time in which another process has the processor. The CPU clock counts only the
+/// time of this thread, or of all threads of this process, but is less precise. So the result is the shorter
+/// of the two times. If the work itself waited for a device or a thread, the result is the time by the wall
+/// clock.
 class Stopwatch {
  public:
   /// CLOCK_THREAD_CPUTIME_ID or CLOCK_PROCESS_CPUTIME_ID
@@ -41,9 +41,10 @@ class Stopwatch {
     long waits;         ///< the number of voluntary context switches
   };
 
-  /// For a process, getrusage() gives the CPU time. CLOCK_PROCESS_CPUTIME_ID would advance only with the
-  /// kernel's ticks while the process has a limit or a timer of CPU time, which a plug-in or `ulimit -t` may
-  /// set. For a thread, getrusage() advances only with ticks, so CLOCK_THREAD_CPUTIME_ID gives the CPU time.
+  /// For a process, getrusage() gives the CPU time. CLOCK_PROCESS_CPUTIME_ID is not used: it advances only
+  /// with the kernel's ticks while the process has a limit or a timer of CPU time. A plug-in or `ulimit -t`
+  /// may set such a limit. For a thread, CLOCK_THREAD_CPUTIME_ID gives the CPU time, because getrusage()
+  /// advances only with the kernel's ticks.
   [[nodiscard]] Usage usage() const {
     rusage usage{};
     getrusage(is_of_thread_ ? RUSAGE_THREAD : RUSAGE_SELF, &usage);
@@ -71,8 +72,9 @@ std::uint64_t time_of(clockid_t clock, const Work& work) {
 }
 
 /// The shortest time of three tries of `work`, since a disturbance seldom affects all three. The CPU clock is
-/// too inaccurate for most decisions, and reading it takes longer than a decision. So the time of short work
-/// is that of the wall clock. If the first try takes long, a Stopwatch times three more tries.
+/// too inaccurate for most decisions, and reading it takes longer than a decision. So short work is timed by
+/// the wall clock. If the first try takes long, a Stopwatch times three more tries, and the first try does
+/// not count.
 template <class Work>
 std::uint64_t best_time_of(clockid_t clock, const Work& work) {
   constexpr std::uint64_t short_time = 5000;  // ns

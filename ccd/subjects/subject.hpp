@@ -35,8 +35,8 @@ constexpr std::string_view name(TimeSort sort) { return time_sort_names[static_c
 /// Whether times of this sort are not after t*.
 constexpr bool is_lower_bound(TimeSort sort) { return sort >= TimeSort::lower_bound; }
 
-/// The assumptions of a subject about the queries that it is asked. The subject is not judged on queries that
-/// violate an assumption. A field that is 0 or false stands for no assumption.
+/// The assumptions that a subject makes about its queries. The subject is not judged on queries that violate
+/// an assumption. A field that is 0 or false makes no assumption.
 struct Contract {
   bool apart_at_start = false;  ///< the distance of the primitives at t = 0 exceeds `apart_by` and h
   /// The volume that the vertices span, as a function of time, has at most one root in [0, 1], and this root
@@ -59,7 +59,7 @@ struct BoundAnswer {
   /// The answer that gives `bound`. If the bound is negative or NaN, the answer has the fault `error`.
   static BoundAnswer given(double bound) { return {bound, bound >= 0 ? Fault::none : Fault::error}; }
 
-  /// The bound; NaN if the answer has no bound because of a fault.
+  /// The bound, or NaN if a fault left the answer without a bound.
   [[nodiscard]] double bound_or_nan() const {
     return fault == Fault::none ? bound : std::numeric_limits<double>::quiet_NaN();
   }
@@ -105,10 +105,10 @@ struct StepAnswer {
   }
 };
 
-/// The time of a batch of answers, measured by a Stopwatch in the deciding thread or process. The time of an
-/// empty subject for the same queries is subtracted.
+/// The time that a subject takes to decide a batch, measured by a Stopwatch in the thread or process that
+/// decides. The time that an empty subject takes for the same queries is subtracted.
 struct BatchTime {
-  std::size_t queries = 0;  ///< the timed queries; parts of the batch in which a process failed do not count
+  std::size_t queries = 0;  ///< the timed queries; queries of a part in which a process failed do not count
   std::uint64_t nanoseconds = 0;
   /// The time without the copies to and from a device; 0 if the subject does not give this time.
   std::uint64_t kernel_nanoseconds = 0;
@@ -206,10 +206,11 @@ class Subject {
   /// fault, and the stack of the crash if it is known. "" if nothing is known.
   [[nodiscard]] virtual std::string fault_errors(const Verdict& /*verdict*/) const { return {}; }
 
-  /// The smallest factor with which the subject would report the query if D, √δ, √ψ, S and ∛μ, the tolerances
-  /// that decide whether it accepts a pair, were multiplied by this factor. The factor is at most 1 if the
-  /// subject reports the query as it is. The factor shows directed search how near the query is to the
-  /// opposite answer. The factor is accurate to a few bits, and is NaN if the subject does not give it.
+  /// D, √δ, √ψ, S and ∛μ are the tolerances that decide whether the subject accepts a pair. Returns the
+  /// smallest factor by which these tolerances must be multiplied for the subject to report the query. The
+  /// factor is at most 1 if the subject reports the query without this change. The factor shows directed
+  /// search how near the query is to the opposite answer. The factor is accurate to a few bits, and is NaN if
+  /// the subject does not give it.
   [[nodiscard]] virtual double needed_tolerance(const Query& /*query*/) const {
     return std::numeric_limits<double>::quiet_NaN();
   }
@@ -247,9 +248,9 @@ struct SplitName {
   std::string_view name;
   std::optional<double> bound;
 };
-/// Splits the suffix "@B" or "@scene" off a name. "@B" gives the bound B. "@scene" and a name without a
-/// suffix both give `given_bound`. If there is no `given_bound`, "@scene" stays in the name. The name of a
-/// plug-in has no suffix. Throws Error if B is a number that is not positive and finite.
+/// Splits the suffix "@B" or "@scene" off a name. The suffix "@B" gives the bound B. A name with the suffix
+/// "@scene", or without a suffix, gives `given_bound`. If there is no `given_bound`, "@scene" stays in the
+/// name. The name of a plug-in has no suffix. Throws Error if B is a number that is not positive and finite.
 SplitName split_bound(std::string_view name, std::optional<double> given_bound);
 
 /// Throws an Error that says that the subject `name` found a coordinate that is not finite.

@@ -27,7 +27,8 @@ namespace nearmiss {
 
 namespace {
 
-/// A built-in subject. Its Policy has these members; `given` is the bound that replaces the pair's own:
+/// A built-in subject. Its Policy has the members below, in which `given` is the bound that replaces the
+/// pair's own bound:
 /// - `template <Kind> Verdict decide(query, given)` for vt and ee. It takes separations if the constant
 ///   `takes_separation` is true.
 /// - `Verdict decide_within(query, given)` for vv and ve, always with separations.

@@ -17,8 +17,8 @@ namespace nearmiss {
 
 /// The polygon of all differences x - y of a point x of the first primitive and a point y of the second. The
 /// distance of the primitives is the distance of the origin from this polygon. The polygon is a triangle for
-/// vt, and a parallelogram for ee. For vv and ve, it is a triangle with corners that coincide (has_triangle).
-/// The corners are differences of vertices, and move linearly.
+/// vt, and a parallelogram for ee. For vv and ve, the polygon is a triangle with corners that coincide
+/// (has_triangle). The corners are differences of vertices, and move linearly.
 template <Kind kind, class T>
 struct DifferencePolygon {
   static constexpr std::size_t size = has_triangle(kind) ? 3 : 4;
@@ -44,8 +44,9 @@ struct DifferencePolygon {
   }
 };
 
-/// The polygon in a frame in which computations with the polygon neither overflow nor underflow. If the
-/// largest component X of a corner needs scaling and is not 0, it is in [1, 2) in this frame.
+/// The polygon in a frame in which computations with the polygon neither overflow nor underflow. If X, the
+/// largest component of a corner, is too large or too small for these computations and is not 0, the frame
+/// scales X into [1, 2).
 template <Kind kind, class T>
 DifferencePolygon<kind, T> difference_polygon(const Query& query) {
   DifferencePolygon<kind, T> polygon(query);
@@ -112,31 +113,33 @@ template <Kind kind, class T, std::size_t size>
 /// Let every operation have a relative error of at most u = ε/2. A component of a corner x + t v has an error
 /// of 8uX: uX from x, 4uX from v, 2uX from the product and uX from the sum. (v = y - x, where y is the corner
 /// at t = 1, has an error of u(|x| + |y| + |v|), and |v| <= 2X.) The computed direction n (`beyond_until`)
-/// has a length of at most 1 + 4u: it is a vector whose largest component is 1, divided by its length. The
-/// magnitudes of the components of n add up to at most √3. So a dot product of n and a vector has two errors:
-/// √3 times the error of the vector's components and, from its own operations, 3u · √3 times the vector's
-/// largest component.
+/// has a length of at most 1 + 4u: n is a vector whose largest component is 1, divided by the length of this
+/// vector. The magnitudes of the components of n add up to at most √3. So a dot product of n and a vector has
+/// two errors. The first is √3 times the error of the vector's components. The second comes from the
+/// operations of the dot product, and is 3u · √3 times the vector's largest component.
 /// - n·corner and n·v: √3 (8 + 3) uX and √3 (4 + 3 · 2) uX, together 37uX.
 /// - h: the corners are beyond h if n·corner > ‖n‖h. As h < n·corner <= √3 X, ‖n‖h is at most h + 7uX.
-/// - The step is a quotient whose numerator has two roundings. So its relative error is 3u. In the whole
-///   step, n·corner falls by at most √3 X; in the fraction 3u of it, by at most 3u · √3 X <= 6uX.
+/// - The step is a quotient whose numerator has two roundings, so the relative error of the step is 3u. In
+///   the whole step, n·corner falls by at most √3 X; in the fraction 3u of the step, n·corner falls by at
+///   most 3u · √3 X <= 6uX.
 /// - t + step has an error of u; in the time u, a corner moves by at most 2√3 uX <= 4uX.
 /// These errors add up to 54uX = 27εX, and 32 has room for terms of second order.
 inline constexpr int advance_error = 32;
 
-/// `advance` reports a collision if the computed distance is at most h + `advance_reach` εX. Its steps only
-/// approach the distance h + `advance_error` εX, and may never reach it, so `advance_reach` is larger.
+/// `advance` reports a collision if the computed distance is at most h + `advance_reach` εX. The steps of
+/// `advance` only approach the distance h + `advance_error` εX, and may never reach this distance, so
+/// `advance_reach` is larger than `advance_error`.
 inline constexpr int advance_reach = 128;
 
 /// If `advance` reports a collision because of the computed distance, the exact distance is at most h +
 /// `advance_bound` εX.
 ///
-/// Each component of the computed nearest point c0 + αf + βg differs by at most 38uX from that of a point of
-/// the exact polygon: 24uX are from the corners, since |1 - α - β| + α + β <= 3; 4uX from f and g; 4uX from
-/// the products; 2uX from the sums; and 4uX because the computed α + β may exceed 1 by 2u. The points of
-/// edges have smaller errors. The computed distance has an error of √3 · 38uX from the point, and of 6uX from
-/// its own operations, together 36εX. With 128εX for `advance_reach`, and 1εX for the rounding of h + 128εX,
-/// the sum is 165εX.
+/// Each component of the computed nearest point c0 + αf + βg differs by at most 38uX from the same component
+/// of some point of the exact polygon. The corners contribute 24uX, since |1 - α - β| + α + β <= 3. The
+/// vectors f and g contribute 4uX, the products 4uX, and the sums 2uX. The last 4uX arise because the
+/// computed α + β may exceed 1 by 2u. The points of edges have smaller errors. The computed distance has an
+/// error of √3 · 38uX from the point, and of 6uX from its own operations, together 36εX. With 128εX for
+/// `advance_reach`, and 1εX for the rounding of h + 128εX, the sum is 165εX.
 inline constexpr int advance_bound = 192;
 
 /// The largest number of steps. Primitives that slide past each other at a tiny distance could need any
@@ -181,15 +184,16 @@ template <Kind kind, class T, class Corners>
 }  // namespace detail
 
 /// Reports every pair with finite coordinates whose distance is at most h, the query's separation, at some t
-/// in [0, 1]. The time in the verdict is a lower bound: before this time, the distance is more than h. A pair
-/// that is reported without a collision comes within h + `advance_bound` εX, unless the stage is `unknown`:
-/// then a step made no progress, or `advance_iterations` steps were not enough.
+/// in [0, 1]. The time in the verdict is a lower bound: before this time, the distance is more than h. If a
+/// pair is reported but does not collide, it comes within h + `advance_bound` εX, unless the stage is
+/// `unknown`. The stage is `unknown` if a step made no progress, or if `advance_iterations` steps were not
+/// enough.
 ///
 /// Proof: if all corners of the polygon are beyond h along a vector n of length 1, the distance is more than
-/// h. The corners move linearly. So if they are beyond h at t, they stay beyond h until the first of them
-/// reaches h. This holds for every n. With the direction of the nearest point as n, n·corner is at least the
-/// distance for every corner. A corner moves at most as fast as the largest relative speed of two vertices.
-/// So a step is at least as long as (distance - h) / (this speed).
+/// h. The corners move linearly. So if all corners are beyond h at t, they stay beyond h until the first
+/// corner reaches h. This holds for every n. With the direction of the nearest point as n, n·corner is at
+/// least the distance for every corner. A corner moves at most as fast as the largest relative speed of two
+/// vertices. So a step is at least as long as (distance - h) / (this speed).
 template <Kind kind, class T>
 Verdict advance(const Query& query) {
   using std::ldexp;

@@ -9,8 +9,9 @@
 namespace nearmiss {
 
 /// Solves F(t) = 0, where F is the coplanarity cubic, as well as the scalar allows, and applies the
-/// barycentric test at each root. It guarantees nothing: it misses a collision if rounding hides the root, or
-/// moves a weight out of [0, 1]. `Wide` is the scalar in which normals and weights are computed.
+/// barycentric test at each root. This CCD guarantees nothing: it misses a collision if rounding hides the
+/// root, or if rounding moves a weight out of [0, 1]. `Wide` is the scalar in which normals and weights are
+/// computed.
 template <Kind kind, class T, bool plane_culling, class Wide = T>
 Verdict basic(const Query& query) {
   if (plane_culling && separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);

@@ -23,8 +23,9 @@ struct Cubic {
 };
 
 /// The cubic F(t) = p · (q × r) of a pair. If all vectors are exact and within B, Theorem 4.1 bounds the
-/// errors of a and d by 6B³((1 + ε)⁵ - 1), and those of b and c by 18B³((1 + ε)⁷ - 1), as in the paper. The
-/// code computes b as x·(v×v) + v·(x×v + v×x), where the paper has x·(v×v) + v·(x×v) + v·(v×x); likewise c.
+/// errors of a and d by 6B³((1 + ε)⁵ - 1), and the errors of b and c by 18B³((1 + ε)⁷ - 1), as in the paper.
+/// The code computes b as x·(v×v) + v·(x×v + v×x), where the paper has x·(v×v) + v·(x×v) + v·(v×x). It
+/// combines the terms of c in the same way.
 template <Kind kind, class T>
 Cubic<T> coplanarity(const Pair<kind, T>& pair) {
   const auto& [p, q, r] = std::tie(pair.p, pair.q, pair.r);
@@ -38,9 +39,10 @@ namespace detail {
 
 // A time with |F| <= μ between lo and hi, found by Newton's method safeguarded by bisection. At lo and hi, F
 // must have different signs, and |F| must exceed μ. The iteration ends, because bisection replaces every step
-// that leaves the bracket, or is more than half as long as the step before. If μ is smaller than
-// `solve_cubic` requires, it can also end because a step leaves t unchanged (`next == t`), or because no
-// number lies inside the bracket; then the result is the end of the bracket with the smaller |F|.
+// that leaves the bracket, and every step that is more than half as long as the step before it. If μ is
+// smaller than `solve_cubic` requires, the iteration can also end because a step leaves t unchanged (`next ==
+// t`), or because no number lies inside the bracket; then the result is the end of the bracket with the
+// smaller |F|.
 template <class T>
 T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
   using std::abs;
@@ -73,8 +75,8 @@ T refine_root(const Cubic<T>& F, T lo, T hi, T F_lo, T F_hi, T mu) {
 // Adds the critical points of F in [0, 1], in ascending order.
 template <class T>
 void find_critical_times(CandidateTimes<T, 2>& critical, const Cubic<T>& F) {
-  // F' has the Bernstein coefficients c, c + b and 3a + 2b + c. If these have the same sign, F is monotone on
-  // [0, 1], and has no critical point inside.
+  // F' has the Bernstein coefficients c, c + b and 3a + 2b + c. If these coefficients have the same sign, F
+  // is monotone on [0, 1], and has no critical point inside.
   const T s1 = F.c + F.b;
   const T s2 = 3 * F.a + 2 * F.b + F.c;
   if (std::min(F.c, std::min(s1, s2)) < 0 && std::max(F.c, std::max(s1, s2)) > 0) {
@@ -118,7 +120,7 @@ std::optional<T> root_in_interval(const Cubic<T>& F, const Nodes<T>& nodes, std:
 
 }  // namespace detail
 
-/// The bound of the error of `clearance`, in units of B³ε, without the errors of the coefficients of F. For
+/// The bound of the rounding error of `clearance`, in units of B³ε, if the coefficients of F are exact. For
 /// rounding to nearest, 41 is proven (proven.hpp).
 inline constexpr int clearance_error = 100;
 
@@ -138,8 +140,8 @@ T clearance(const Cubic<T>& F) {
   return max(lowest, T(-highest));
 }
 
-/// At most three times with |F| <= μ, in ascending order, which represent the roots of F in [0, 1]. There are
-/// none if |F| is above μ on all of [0, 1].
+/// At most three times with |F| <= μ, in ascending order, which represent the roots of F in [0, 1]. There is
+/// no such time if |F| is above μ on all of [0, 1].
 ///
 /// The nodes are 0, the critical points of F in (0, 1), and 1. Each interval between two nodes contributes
 /// its left node if |F| <= μ there; else its right node if |F| <= μ there; else, if F has different signs at
@@ -152,11 +154,12 @@ T clearance(const Cubic<T>& F) {
 /// |F - F*| <= e. F̂ is the value of F computed by Horner's rule, and |F̂ - F| <= h. Let E = e + h.
 /// (1) If s and t are in the same interval between two nodes, F stays between F(s) and F(t) at all times
 ///     between s and t, up to an error of m. The inner nodes are the critical points of F + (c' - c) t, with
-///     |c' - c| <= 3ω |c|, each up to a factor 1 + θ (`solve_quadratic`). This function is monotone between
-///     its exact critical points. It changes by O(ω²) between an exact critical point, where its slope is 0,
-///     and the node near this point. So m is 54 ω + O(ω²). If there are no inner nodes because the computed
-///     Bernstein coefficients of F' have the same sign, the last coefficient has an error of at most 72 ω.
-///     Then the slope of F has the wrong sign by at most 72 ω t², and m is 24 ω.
+///     |c' - c| <= 3ω |c|, each up to a factor 1 + θ (`solve_quadratic`). The function F + (c' - c) t is
+///     monotone between its exact critical points. It changes by O(ω²) between an exact critical point, where
+///     its slope is 0, and the node near this point. So m is 54 ω + O(ω²). If the computed Bernstein
+///     coefficients of F' have the same sign, there are no inner nodes. The last of these coefficients has an
+///     error of at most 72 ω, so the exact slope of F may have the other sign. Then the magnitude of the
+///     slope is at most 72 ω t², and m is 24 ω.
 /// (2) If |F̂| > μ at two neighbouring nodes, with the same sign, then |F| > μ - h - m between them. A root t0
 ///     of F* has |F| <= e, so no root of F* is between these nodes. `clearance` has an error of at most
 ///     114 ω, so F* has no root if `clearance` exceeds μ.

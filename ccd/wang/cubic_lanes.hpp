@@ -1,5 +1,5 @@
-// The roots of many coplanarity cubics, one cubic in each lane, with the arithmetic of cubic.hpp and
-// quadratic.hpp.
+// Finds the roots of many coplanarity cubics, one cubic in each lane, with the same arithmetic as cubic.hpp
+// and quadratic.hpp.
 #pragma once
 
 #include <array>
@@ -39,8 +39,8 @@ std::array<Quotient<Real>, 2> quadratic_roots(const Real& a, const Real& b, cons
   return roots;
 }
 
-/// In each lane, whether a cubic has a critical point in [0, 1], whether it has two, and the critical points
-/// in ascending order, with 1 in place of a missing one.
+/// In each lane, whether a cubic has a critical point in [0, 1], whether the cubic has two, and the critical
+/// points in ascending order, with 1 in place of a missing critical point.
 template <class Real>
 struct CriticalTimes {
   typename Real::Mask any, two;

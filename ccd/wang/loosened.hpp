@@ -7,8 +7,8 @@
 
 namespace nearmiss {
 
-/// The rule that gives the tolerances of another rule, loosened by the factor s: the lengths D, √δ, √ψ, S and
-/// ∛μ, which decide whether a pair is accepted, are multiplied by s.
+/// A rule that loosens the tolerances of another rule by the factor s. It multiplies the lengths D, √δ, √ψ, S
+/// and ∛μ by s; these lengths decide whether a pair is accepted.
 template <class Rule>
 struct Loosened {
   Rule tolerances;

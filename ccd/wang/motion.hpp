@@ -102,8 +102,8 @@ Moving<T> relative_motion(const Points& points, int a, int b, const Frame& frame
   return motion;
 }
 
-/// The vertices of a pair, in the order of the paper's formulas. The end points of an edge may change places
-/// (§4.1).
+/// The vertices of a pair, in the order in which the paper's formulas use them. The end points of an edge may
+/// change places (§4.1).
 using VertexOrder = std::array<int, 4>;
 inline constexpr VertexOrder given_order{0, 1, 2, 3};
 
@@ -151,11 +151,12 @@ namespace detail {
 // - 34uB* + uB* for an extent, which is the difference of two such sums,
 // - 4uB* for an edge (x32 = x31 - x21).
 // The sum E + W has a rounding error of uB*. Together these errors are at most 40uB* = 20 ε B* (17 ε B* is
-// proven). The factor 1 + 64 ε makes up for them and for the rounding of its own product: B >= B*(1 + 40ε).
+// proven). The factor 1 + 64 ε makes up for these errors, and for the rounding of the product with this
+// factor: B >= B*(1 + 40ε).
 template <Kind kind, class T>
 void form_bound(Pair<kind, T>& pair) {
-  // All six components of a vector at once: those of its position, then those of its velocity. The positions
-  // of q and r are edges; that of p is not, so 0 takes its place.
+  // All six components of a vector at once: three of its position, then three of its velocity. The positions
+  // of q and r are edges. The position of p is not an edge, so 0 takes its place.
   using Six = Eigen::Array<T, 6, 1>;
   const Six& q = pair.q.xv;
   Six p;
@@ -189,9 +190,9 @@ Pair<kind, T> make_pair(const Query& query, const Frame& frame = {}, const Verte
   return pair;
 }
 
-/// Whether a pair with this bound B needs no scaling. For double, this is so if B is in [2^-100, 2^100]:
-/// nothing can overflow, and underflow adds an error below 2^-1074 to a result, far less than B⁴ε >= 2^-452.
-/// For a narrower scalar, B must be in [2^-6, 2^6].
+/// Whether a pair with this bound B needs no scaling. For double, B must be in [2^-100, 2^100]. Then nothing
+/// can overflow, and underflow adds an error below 2^-1074 to a result, far less than B⁴ε >= 2^-452. For a
+/// narrower scalar, B must be in [2^-6, 2^6].
 template <class T>
 auto in_range(T B) {
   using Number = ScalarOf<T>;
@@ -250,9 +251,10 @@ VertexOrder closest_order(const Query& query, const Frame& frame) {
 
 }  // namespace detail
 
-/// Whether all vectors of the pair are within B. This is so if the pair collides and, for two edges, p joins
-/// the end points that are closest at t = 0 (§4.1). The computed p has a relative error of at most u, and
-/// B >= B*(1 + 40ε). So a pair cannot collide if its p is not within B in the closest_order() of end points.
+/// Whether all vectors of the pair are within B. They are within B if the pair collides and, for two edges, p
+/// joins the end points that are closest at t = 0 (§4.1). The computed p has a relative error of at most u,
+/// and B >= B*(1 + 40ε). So a pair cannot collide if its p is not within B in the closest_order() of end
+/// points.
 template <Kind kind, class T>
 auto within_reach(const Pair<kind, T>& pair) {
   return max_component(pair.p.x()) <= pair.B;

@@ -19,7 +19,7 @@ double pair_bound(const Query& query) {
   };
   const double B = in(normalising_frame<kind, double>(query));
   // The primitives may be so far apart that their difference overflows in the frame of B. Then their relative
-  // velocity, and with it B, is NaN.
+  // velocity is NaN, and so is B.
   return std::isnan(B) ? in({.reduced = true}) : B;
 }
 /// The bound B of a pair whose kind is known at run time.
@@ -27,9 +27,9 @@ inline double pair_bound(const Query& query) {
   return with_kind(query.kind, [&]<Kind kind>() { return pair_bound<kind>(query); });
 }
 
-/// If `wang` reports a pair with the bound B falsely, the pair's smallest distance is at most this bound. The
-/// bound is computed from the tolerances for B = 1, with which nothing overflows, and rounded up, so that it
-/// is not 0 for a tiny pair.
+/// The distance bound of a pair with the bound B: if `wang` reports the pair falsely, the smallest distance
+/// of its primitives is at most this length. The function computes the length from the tolerances for B = 1,
+/// so that nothing overflows, and rounds the length up, so that it is not 0 for a tiny pair.
 inline double distance_bound_of(const Tolerances<double>& at_one, double B) {
   return std::nextafter(at_one.distance_bound() * B, std::numeric_limits<double>::infinity());
 }

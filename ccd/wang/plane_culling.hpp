@@ -34,9 +34,10 @@ template <Kind kind, class Coordinate>
 
 // Whether, in the given coordinate, one primitive lies entirely above the other at t = 0, and the same
 // primitive lies entirely above the other at t = 1. Then the difference of a vertex of the upper primitive
-// and a vertex of the lower primitive is positive at t = 0 and t = 1 and, because it is linear, at all times
-// between. The difference of any two points of the primitives is a convex combination of these differences,
-// so the primitives never meet. The answer is one truth value, or a mask if the coordinates are in lanes.
+// and a vertex of the lower primitive is positive at t = 0 and t = 1. The difference is linear in t, so it is
+// positive at all times between. The difference of any two points of the primitives is a convex combination
+// of these differences, so the primitives never meet. The answer is one truth value, or a mask if the
+// coordinates are in lanes.
 template <Kind kind, class Coordinate>
 [[gnu::always_inline]] inline auto separated(const Coordinate& coordinate) {
   const auto start = extents<kind>(coordinate, 0);
@@ -76,10 +77,10 @@ template <Kind kind, class Points>
 /// Whether a moving plane perpendicular to an axis (x, y, z) or a diagonal (x ± y, x ± z, y ± z) provably
 /// separates the primitives at all times in [0, 1], so that there is no collision.
 ///
-/// Along an axis, the code compares the coordinates themselves. Along a diagonal, it compares sums or
+/// Along an axis, the code compares the coordinates themselves. Along a diagonal, the code compares sums or
 /// differences that are rounded once. Rounding is monotone, so fl(a) > fl(b) implies a > b, and no error
-/// margin is needed. This also holds after overflow: an infinite sum is above every finite sum, and not above
-/// another infinite sum.
+/// margin is needed. This argument also holds after overflow: a sum of +∞ is above every finite sum, and not
+/// above another sum of +∞.
 template <Kind kind>
 bool separated_by_plane(const Query& query) {
   const auto x = coordinates(query);

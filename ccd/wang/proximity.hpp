@@ -12,10 +12,10 @@ namespace nearmiss {
 /// The configuration of a pair at one time: the vectors p, q and r of `Pair`, the normal N = q × r, and the
 /// barycentric weights.
 ///
-/// All weights are multiplied by N·N. Vertex-triangle has three: β of x3, α of x2, and their sum, which is 1
-/// minus the weight of x1. Since x01 = β x31 + α x21, N·(x21 × x01) = β N·N and N·(x01 × x31) = α N·N.
-/// Edge-edge has two: α on the edge x0x1, and β on x2x3. Since x20 = α x10 - β x32, N·(x20 × x32) = α N·N and
-/// N·(x20 × x10) = β N·N.
+/// All weights are multiplied by N·N. A vertex and a triangle have three weights: β of x3, α of x2, and the
+/// sum of α and β, which is 1 minus the weight of x1. Since x01 = β x31 + α x21, N·(x21 × x01) = β N·N and
+/// N·(x01 × x31) = α N·N. Two edges have two weights: α on the edge x0x1, and β on the edge x2x3. Since
+/// x20 = α x10 - β x32, N·(x20 × x32) = α N·N and N·(x20 × x10) = β N·N.
 ///
 /// All operations are in T, which may have more digits than Given, the scalar of the pair.
 template <Kind kind, class Given, class T = Given>

@@ -34,15 +34,15 @@ void add_quotient(CandidateTimes<T, capacity>& times, T numerator, T denominator
 /// A computed discriminant below 0 counts as 0, since an additional candidate is harmless. With q = -(b +
 /// sign(b) sqrt(disc)), the roots are q/2a and 2c/q. Neither formula suffers from cancellation.
 ///
-/// Errors, for operations with a relative error of at most ω, to first order (tests/proofs/ has all orders):
-/// there is a c' with |c' - c| <= 2ω |c| such that, for each root t' of a t² + b t + c' in [0, 1], the
-/// function adds the time t'(1 + θ) with |θ| <= 6ω, unless this time is beyond 1.
+/// Bounds of the errors to first order, for operations with a relative error of at most ω (tests/proofs/ has
+/// all orders): there is a c' with |c' - c| <= 2ω |c| for which the following holds. For each root t' of a t²
+/// + b t + c' in [0, 1], the function adds the time t'(1 + θ) with |θ| <= 6ω, unless this time is beyond 1.
 ///
 /// Proof: the computed discriminant disc = (b²(1 + δ1) - 4ac(1 + δ2))(1 + δ3) is (1 + δ1)(1 + δ3) times the
-/// exact discriminant of a, b and c' = c(1 + δ2)/(1 + δ1), so both have the same sign. The relative errors
-/// are 2ω for the square root of disc, 3ω for q (a sum of two terms with the same sign), 4ω for q/2a, and 6ω
-/// for 2c/q, which has c in place of c'. If a itself has an error of 1ω, as 3a has in the derivative of a
-/// cubic, the bounds become 3ω for c' and 7ω for θ.
+/// exact discriminant of a, b and c' = c(1 + δ2)/(1 + δ1), so the two discriminants have the same sign. The
+/// relative errors are 2ω for the square root of disc, 3ω for q (a sum of two terms with the same sign), 4ω
+/// for q/2a, and 6ω for 2c/q, which has c in place of c'. If a itself has an error of 1ω, as 3a has in the
+/// derivative of a cubic, the bounds become 3ω for c' and 7ω for θ.
 template <class T, int capacity>
 void solve_quadratic(CandidateTimes<T, capacity>& times, T a, T b, T c) {
   using std::sqrt;

@@ -25,12 +25,13 @@ enum class VeCulling : std::uint8_t {
 /// vectors; F is the coplanarity cubic of the exact motion. The bound holds for operations with a relative
 /// error of at most ε, that is, in any rounding mode.
 ///
-/// The positions have an error of ε B, and the velocities one of 3ε B. Edge-edge: the velocity of p has an
-/// error of 4ε B, because p may be up to 2B at one end. By Theorem 4.1, a value bounded by B_f has an error
-/// of at most ((1 + ε)^k - 1) B_f. For the coefficient a, B_f is 6 B³ and k is 15; for b, 18 B³ and 15; for
-/// c, 18 B³ and 12; for d, 6 B³ and 8: together 624 ε B³. In Horner's rule, the terms of a, b, c and d have
-/// 6, 5, 3 and 1 roundings: 36 + 90 + 54 + 6 = 186 ε B³. The sum is 810 and, with all terms of higher order,
-/// at most 865 for ε <= 2^-10 (tests/proofs/). For rounding to nearest, 334 is proven (proven.hpp).
+/// The positions have an error of ε B, and the velocities have an error of 3ε B. Edge-edge: the velocity of p
+/// has an error of 4ε B, because p may be up to 2B at one end. By Theorem 4.1, a value bounded by B_f has an
+/// error of at most ((1 + ε)^k - 1) B_f. For the coefficients a, b, c and d, B_f is 6, 18, 18 and 6 B³, and k
+/// is 15, 15, 12 and 8. Together these coefficients contribute an error of 624 ε B³. In Horner's rule, the
+/// terms of a, b, c and d have 6, 5, 3 and 1 roundings: 36 + 90 + 54 + 6 = 186 ε B³. The sum is 810 and, with
+/// all terms of higher order, at most 865 for ε <= 2^-10 (tests/proofs/). For rounding to nearest, 334 is
+/// proven (proven.hpp).
 inline constexpr int evaluation_error = 865;
 
 /// The bound m in the proof of `solve_cubic`, in units of B³ε. If s and t are in one interval between two
@@ -38,30 +39,31 @@ inline constexpr int evaluation_error = 865;
 /// error is 3 · 18, plus terms of second order, for ε <= 2^-10.
 inline constexpr int node_error = 60;
 
-/// The bound of the error of comparing a weight with N·N, in units of B⁴ε, by Theorem 4.1 (B_f and k as
-/// above) and in every rounding mode. x + t v has B_f = B and k = 6. N, p × q and p × r have B_f = 2 B² and
-/// k = 14. A weight, the dot product of N and such a product, has B_f = 12 B⁴ and k = 14 + 14 + 1 + 2 = 31,
-/// and so has N·N. Vertex-triangle: the sum of two weights has 24 B⁴ with k = 32, so the bound is
-/// 24 · 32 + 12 · 31 = 1140. Edge-edge: p has k = 7, so p × q and p × r have k = 15, and a weight has k = 32;
-/// the bound is only 12 · 32 + 12 · 31 = 756. The constant has room for terms of second order, for
-/// ε <= 2^-10. For rounding to nearest, 423 is proven.
+/// The bound of the error in comparing a weight with N·N, in units of B⁴ε. It follows from Theorem 4.1 (B_f
+/// and k as above), and holds in every rounding mode. x + t v has B_f = B and k = 6. N, p × q and p × r have
+/// B_f = 2 B² and k = 14. A weight, the dot product of N and such a product, has B_f = 12 B⁴ and k = 14 + 14
+/// + 1 + 2 = 31, and so has N·N. Vertex-triangle: the sum of two weights has B_f = 24 B⁴ and k = 32, so the
+/// bound is 24 · 32 + 12 · 31 = 1140. Edge-edge: p has k = 7, so p × q and p × r have k = 15, and a weight
+/// has k = 32; here the bound is only 12 · 32 + 12 · 31 = 756. The constant has room for terms of second
+/// order, for ε <= 2^-10. For rounding to nearest, 423 is proven.
 inline constexpr int weight_error = 1160;
 
-/// The bound of the error of `weight_spread`, ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h, in units of B⁴ε, for h <= 1. Here
-/// ‖N‖₁ <= 6 B², ‖q‖₁ + ‖r‖₁ <= 6 B and W <= B. ‖N‖₁ has an error of 3 · 2 B² · 14 ε = 84 B²ε, which
-/// contributes 84 · 6 √3 <= 873. ‖q‖₁ + ‖r‖₁ has an error of 6 · 6 Bε, which contributes 36 · 6 √3 <= 375. W
-/// has an error of 35 εB (see form_bound, with ε in place of u), which contributes 35 · 36 √3 <= 2183. The
-/// product itself has about ten roundings, and t ± h has one; these contribute 11 · 36 √3 <= 686. The sum is
-/// 4117, plus terms of second order. For rounding to nearest, 1427 is proven, and 1914 for this error and
-/// that of the weight's comparison together.
+/// The bound of the rounding error of `weight_spread`, in units of B⁴ε, for h <= 1. `weight_spread` computes
+/// ‖N‖₁ (‖q‖₁ + ‖r‖₁) √3 W h. Here ‖N‖₁ <= 6 B², ‖q‖₁ + ‖r‖₁ <= 6 B and W <= B. ‖N‖₁ has an error of 3 · 2
+/// B² · 14 ε = 84 B²ε, which contributes 84 · 6 √3 <= 873. ‖q‖₁ + ‖r‖₁ has an error of 6 · 6 Bε, which
+/// contributes 36 · 6 √3 <= 375. W has an error of 35 εB (see form_bound, with ε in place of u), which
+/// contributes 35 · 36 √3 <= 2183. The product itself has about ten roundings, and t ± h has one; these
+/// contribute 11 · 36 √3 <= 686. The sum is 4117, plus terms of second order. For rounding to nearest, 1427
+/// is proven for this error, and 1914 for the sum of this error and the error of the weight's comparison.
 inline constexpr int spread_error = 4400;
 
 /// `weight_error` for a configuration in a wider scalar, whose operations have relative errors of at most 4
-/// ε². The errors of the relative vectors remain: ε of a position and 3ε of a velocity. So k is 4 for
-/// x + t v, and 8 for N, p × q and p × r. Vertex-triangle: the sum of two weights has 24 B⁴ and N·N has
-/// 12 B⁴, both with k = 16: 36 · 16 = 576. Edge-edge: k is 5 for p, and 9 for p × q and p × r; a weight has
-/// 12 B⁴ with k = 17: 12 · 17 + 12 · 16 = 396. All roundings in the wider scalar together are a term of
-/// second order: at most 20 in a row, 20 · 4 · 36 ε².
+/// ε². The errors of the relative vectors remain: an error of ε B in a position, and an error of 3ε B in a
+/// velocity. So k is 4 for x + t v, and 8 for N, p × q and p × r. Vertex-triangle: the sum of two weights has
+/// B_f = 24 B⁴, N·N has B_f = 12 B⁴, and k is 16 for both, so the bound is 36 · 16 = 576. Edge-edge: k is 5
+/// for p, and 9 for p × q and p × r. A weight has B_f = 12 B⁴ and k = 17, so the bound is 12 · 17 +
+/// 12 · 16 = 396. All roundings in the wider scalar together are a term of second order: at most 20 in a row,
+/// 20 · 4 · 36 ε².
 inline constexpr int weight_error_if_wide = 590;
 
 /// `spread_error` for a configuration in a wider scalar. ‖N‖₁ has an error of 3 · 2 B² · 8 ε = 48 B²ε, which
@@ -111,7 +113,7 @@ auto outside(const Configuration<kind, T, Wide>& configuration, T spread, T eps,
 
 }  // namespace detail
 
-/// Whether it is certain that no collision belongs to the computed root t. If so, this root needs no VE
+/// Whether it is certain that no collision belongs to the computed root t. If so, the root t needs no VE
 /// tests.
 ///
 /// Let t0 be a root of the exact F that t represents. Between t and t0, |F| is at most μ + E + m, since

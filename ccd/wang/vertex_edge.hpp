@@ -98,22 +98,25 @@ CandidateTimes<T, 24> piece_minima(const CrossProduct<T>& g, const Moving<T>& ji
 /// Claim (§4.3, Appendix C), for ψ >= `least_psi`: if F_0ij <= 0 at a time t_E, there is a candidate t such
 /// that the computed F_0ij(t) is at most ψ, and F_0ij is at most ψ at all times between t_E and t.
 ///
-/// Proof, for operations with a relative error of at most ω. Let Q_k be the computed components of
-/// x_0i × x_ji without the replaced terms, each with the c' of `solve_quadratic` in place of c. Let G be the
-/// sum of all |Q_k| minus S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ + O(ω). Start at t_E, and go
-/// in a direction in which G does not rise, until G would rise. The kinks of -S‖x_ji‖∞ are concave, and G
-/// does not begin to rise at a concave kink. So this walk ends at a time t' of one of these kinds:
+/// Proof, for operations with a relative error of at most ω. Let Q_k be the computed components of x_0i ×
+/// x_ji without the terms that were replaced by 0. In each Q_k, let the c' of `solve_quadratic` stand in
+/// place of c. Let G be the sum of all |Q_k| minus S‖x_ji‖∞. |G - F_0ij| <= Δ at all times, with Δ = 6ρ +
+/// O(ω). Start at t_E, and go in a direction in which G does not rise, until G would rise. The kinks of
+/// -S‖x_ji‖∞ are concave, and G does not begin to rise at a concave kink. So this walk ends at a time t' of
+/// one of these kinds:
 /// - 0 or 1 (case 1).
-/// - A kink of some |Q_k|, which is a root of Q_k (case 4). The candidate for this root, or 1 if its computed
-///   time is beyond 1, is within 6ω of the root, and G changes at a rate of at most 30 B² + SB.
+/// - A kink of some |Q_k|, which is a root of Q_k (case 4). The candidate for this root is within 6ω of the
+///   root. (If the computed time of the root is beyond 1, the candidate 1 is within 6ω of the root.) G
+///   changes at a rate of at most 30 B² + SB.
 /// - The minimum of a piece (case 2). The computed slope of the piece has an error of at most
-///   r = (68 B² + 2 SB) ω. So the piece rises by at most r/2 between t' and the computed time of the minimum,
-///   or 0 or 1 if this time is outside [0, 1]. After a concave kink, G is below the piece. If a kink of some
-///   |Q_k| comes first, go on to the computed time of that root.
+///   r = (68 B² + 2 SB) ω. So the piece rises by at most r/2 between t' and the computed time of the minimum
+///   (or between t' and 0 or 1, if this time is outside [0, 1]). After a concave kink, G is below the piece.
+///   If a kink of some |Q_k| lies between t' and that time, go on to the computed time of this root of Q_k
+///   instead.
 /// From t_E to the candidate, F_0ij <= G + Δ <= G(t_E) + rise + Δ <= 2Δ + rise. The bound contains no square
 /// root of an error, because all candidates are nearly exact times of kinks and minima of one function, G,
-/// which is near F_0ij. The paper's 688 B²ε^½, for the distance from the computed root of one Q_k to the
-/// exact root, is not needed.
+/// which is near F_0ij. The paper's bound 688 B²ε^½ allows for the distance from the computed root of one Q_k
+/// to the exact root; this proof does not need it.
 template <class T>
 Verdict vertex_edge(const VertexEdge<T>& ve, const Tolerances<T>& tol) {
   const auto is_near = [&](T t) { return detail::near_edge(ve, t, tol); };

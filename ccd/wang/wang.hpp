@@ -49,8 +49,8 @@ inline std::string too_small(double given, double own) {
   return message.str();
 }
 
-// The pair with a given B in place of its own, in a frame in which the given B is in_range(). Throws Error if
-// the given B is smaller than the pair's own.
+// Returns the pair with the given B in place of its own, in a frame in which the given B is in_range().
+// Throws Error if the given B is smaller than the pair's own.
 template <Kind kind, class T>
 Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double given) {
   using std::ilogb;
@@ -69,11 +69,11 @@ Pair<kind, T> with_given_bound(const Query& query, Pair<kind, T> pair, double gi
 // Sets the pair's B to its own bound, or to the given B. Returns whether `wang_tests` can decide the pair as
 // it is. If not, the caller must call `wang_careful`, which throws Error if the given B is too small.
 //
-// The function returns true if both bounds are in_range(), the given one is at least as large as the pair's
-// own, and all vectors are within B. Then `wang_careful` would give the same verdict, since it would change
-// neither the frame nor the order of end points. It would change the frame if a vector were not finite, but
-// all are: if an edge or a velocity were infinite, the pair's own B would not be in_range(); p is within B;
-// and a velocity is NaN only if a position is infinite.
+// The function returns true if both bounds are in_range(), the given bound is at least as large as the pair's
+// own bound, and all vectors are within B. Then `wang_careful` would give the same verdict, because it would
+// keep the frame and the order of end points. `wang_careful` changes the frame if a vector is not finite, but
+// here all vectors are finite. If an edge or a velocity were infinite, the pair's own B would not be
+// in_range(). The position of p is within B. A velocity is NaN only if a position is infinite.
 template <Kind kind, class T>
 auto take_bound(Pair<kind, T>& pair, const std::optional<double>& given) {
   form_bound(pair);
@@ -86,7 +86,7 @@ auto take_bound(Pair<kind, T>& pair, const std::optional<double>& given) {
   return is_plain & within_reach(pair);
 }
 
-// The sum of the squares of all components of p, q and r, both of their positions and of their velocities.
+// The sum of the squares of all components of p, q and r: three of each position, and three of each velocity.
 // The order of the terms is fixed, as in `dot`.
 template <Kind kind, class T>
 T sum_of_squares(const Pair<kind, T>& pair) {
@@ -109,9 +109,10 @@ T sum_of_squares(const Pair<kind, T>& pair) {
 // μ for B = 1. Then μ <= 5^(3/2) μ1 s^(3/2) < 11.2 μ1 s^(3/2), and a clearance above 16 μ1 s^(3/2) is above
 // 1.4 μ. Rounding errors are too small to matter: all components are within √s, and velocities have errors of
 // 4ε √s. So the errors of F and of the clearance are together below 1000 ε s^(3/2) in every rounding mode
-// (Theorem 4.1: 48 · 18 and 114), and 16 μ1 is more than 6900 ε. The order of end points does not matter
-// either, since it only changes the sign of F*. The code compares the squares of both sides, to avoid a
-// square root. If s is not in_range(), s³ might overflow or underflow, and the answer is false.
+// (by Theorem 4.1, 48 · 18 for F and 114 for the clearance), and 16 μ1 is more than 6900 ε. The order of end
+// points does not matter either, because another order changes only the sign of F*, the exact F. The code
+// compares the squares of both sides, to avoid a square root. If s is not in_range(), s³ might overflow or
+// underflow, and the answer is false.
 template <Kind kind, class T, class Rule>
 auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& tolerances) {
   const T s = sum_of_squares(pair);
@@ -122,11 +123,11 @@ auto keeps_clear(const Pair<kind, T>& pair, const Cubic<T>& F, const Rule& toler
 
 // Algorithms 3 and 4 after plane culling, for a pair whose vectors are within B.
 //
-// Normals and weights may be computed in a wider scalar, `Wide`. The proofs only use upper bounds of the
-// errors of normals and weights, so they also hold if the errors are smaller. A collision passes the area,
-// height and barycentric tests, or is so near their limits that the vertex-edge tests report it. Every pair
-// that passes these tests is within the distance bound. `excludes_collision` has other bounds of errors for
-// `Wide`.
+// Normals and weights may be computed in a wider scalar, `Wide`. The proofs use only upper bounds of the
+// errors of normals and weights, so the proofs also hold if the errors are smaller. A collision passes the
+// area, height and barycentric tests, or is so near their limits that the vertex-edge tests report it. Every
+// pair that passes these tests is within the distance bound. `excludes_collision` has other bounds of errors
+// for `Wide`.
 template <Kind kind, class T, WangOptions options, class Wide, class Rule>
 [[gnu::always_inline]] inline Verdict wang_tests(const Query& query, const Pair<kind, T>& pair,
                                                  const Cubic<T>& F, const Rule& tolerances) {
@@ -146,8 +147,8 @@ template <Kind kind, class T, WangOptions options, class Wide, class Rule>
   for (const T& t : roots)
     if (proximity(t, true)) return hit(t);
   // The paper tests the roots, and also t = 0 and t = 1. Here, t = 0 and t = 1 count only if |F| <= μ at that
-  // time, as at the roots. If |F| <= μ at t = 0, t = 0 is among the roots, as the left node of the first
-  // interval. t = 1 need not be among the roots.
+  // time, as at the roots. If |F| <= μ at t = 0, then t = 0 is already in `roots`, because it is the left
+  // node of the first interval. The time t = 1 may be missing from `roots`.
   using std::abs;
   if (abs(F(T(1))) <= tol.mu && proximity(T(1), false)) return hit(T(1));
   if (culled) return Verdict::rejected(roots.count == 0 ? Rejection::no_root : Rejection::culled);
@@ -168,11 +169,11 @@ template <Kind kind, class T, WangOptions options, class Wide = T, class Rule>
 }  // namespace detail
 
 /// Algorithms 3 and 4. Reports every collision of primitives with finite coordinates, including contact at
-/// t = 0 and t = 1, for a scalar T of 13 bits or more (§4 and constraints.hpp). A pair that it reports
-/// without a collision comes within Tolerances::distance_bound(), about 41 B ε^¼ (§4.4.1, §4.5.1). If `given`
-/// is set, it replaces the pair's own B; a value that is smaller than the pair's own throws Error (§5).
-/// tolerances(B) gives the tolerances for a bound B. `Wide` is the scalar in which normals and weights are
-/// computed.
+/// t = 0 and t = 1, for a scalar T of 13 bits or more (§4 and constraints.hpp). If a pair is reported but
+/// does not collide, its primitives come within Tolerances::distance_bound(), about 41 B ε^¼ (§4.4.1,
+/// §4.5.1). If `given` is set, it replaces the pair's own B; the function throws Error if `given` is smaller
+/// than the pair's own B (§5). tolerances(B) gives the tolerances for a bound B. `Wide` is the scalar in
+/// which normals and weights are computed.
 template <Kind kind, class T, WangOptions options, class Rule = PaperTolerances, class Wide = T>
 Verdict wang(const Query& query, const std::optional<double>& given = std::nullopt,
              const Rule& tolerances = {}) {

@@ -11,7 +11,7 @@
 
 namespace nearmiss {
 
-/// The verdict on a query that wang_in_lanes leaves undecided; `wang` must decide it.
+/// The verdict on a query that wang_in_lanes leaves undecided; `wang` must decide this query.
 inline constexpr Verdict undecided_verdict{};
 constexpr bool is_decided(const Verdict& verdict) {
   return verdict.hit || verdict.rejection != Rejection::untold;
@@ -19,8 +19,8 @@ constexpr bool is_decided(const Verdict& verdict) {
 
 /// Decides queries as `wang` does (wang.hpp), with the bound `given` if it is set, else with each pair's own
 /// bound. Leaves these queries undecided: queries that need vertex-edge tests, another frame or another order
-/// of end points; queries of the kinds vv and ve; queries whose own bound exceeds the given one; and queries
-/// with a coordinate that is not finite.
+/// of end points; queries of the kinds vv and ve; queries whose own bound exceeds the given bound; and
+/// queries with a coordinate that is not finite.
 void wang_in_lanes(const QueryRows& queries, std::span<Verdict> verdicts,
                    const std::optional<double>& given = std::nullopt,
                    Instructions instructions = chosen_instructions());

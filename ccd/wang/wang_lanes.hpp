@@ -1,4 +1,4 @@
-// `wang` for many queries at once, one query in each lane, with the arithmetic of wang.hpp.
+// `wang` for many queries at once, one query in each lane, with the same arithmetic as wang.hpp.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +24,9 @@ namespace nearmiss {
 
 /// Decides queries of one kind in four steps: plane culling; the rejection of queries for which the
 /// coplanarity cubic F stays away from 0; the search for roots of F; and the tests at the roots. Each step
-/// processes those queries that the previous steps have left undecided, n queries at a time. Queries that
-/// need vertex-edge tests, another frame or another order of end points stay undecided. A lane computes
-/// exactly what the templates of wang.hpp compute for its query, so n changes no verdict.
+/// processes, n at a time, the queries that the previous steps have left undecided. Queries that need
+/// vertex-edge tests, another frame or another order of end points stay undecided. A lane computes exactly
+/// what the templates of wang.hpp compute for its query, so n changes no verdict.
 template <int n, Kind kind>
 class WangLanes {
  public:
@@ -246,7 +246,7 @@ class WangLanes {
   }
 
   /// Applies the area, height and barycentric tests to all candidates. For a candidate that does not pass
-  /// them, finds out whether it needs vertex-edge tests.
+  /// these tests, finds out whether the candidate needs vertex-edge tests.
   void test_candidates() {
     pad(candidate_place_, candidate_count_);
     pad(candidate_time_, candidate_count_);

@@ -64,8 +64,8 @@ std::array<T, plane_count> across_planes(const Vector3<T>& x) {
 }
 
 /// A time until which a moving plane separates the primitives. The plane is perpendicular to an axis or a
-/// diagonal, and until this time, the components of all `vertex_differences` in the direction of this axis or
-/// diagonal keep one sign.
+/// diagonal. Until this time, the components of all `vertex_differences` along this axis or diagonal have the
+/// same sign.
 template <Kind kind, class T>
 T separated_until(const Pair<kind, T>& pair) {
   const T error = gap_error * epsilon<T>() * pair.B;
@@ -90,12 +90,12 @@ T separated_until(const Pair<kind, T>& pair) {
 
 /// A time in interval i; before this time, the exact F has no root in the interval.
 ///
-/// By (2) of `solve_cubic`, there is no root between two times of the interval at which F has the same sign
-/// and |F| exceeds `residual` - h, where h is the error of evaluating F. To find such a time, the function
-/// shifts F towards 0 by twice the residual. The shifted cubic has the same nodes. By (3), `refine_root`
-/// finds a time at which the magnitude of the shifted cubic is at most half the residual. The shift adds an
-/// error of at most 7uB³ to d, the constant coefficient of F, so at this time |F| is above
-/// 1.4 `residual` - h.
+/// Let h be the error of evaluating F. By (2) of the proof of `solve_cubic`, there is no root between two
+/// times of the interval if F has the same sign at these times and |F| exceeds `residual` - h at both. The
+/// start of the interval is the first of two such times. To find the second, the function shifts F towards 0
+/// by twice the residual. The shifted cubic has the same nodes. By (3), `refine_root` finds a time at which
+/// the magnitude of the shifted cubic is at most half the residual. The shift adds an error of at most 7uB³
+/// to d, the constant coefficient of F, so at this time |F| is above 1.4 `residual` - h.
 template <class T>
 T before_root(const Cubic<T>& F, const Nodes<T>& nodes, std::size_t i, T residual) {
   const T sign = nodes.value[i] < 0 ? T(-1) : T(1);

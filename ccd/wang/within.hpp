@@ -25,11 +25,11 @@ VertexEdge<T> vectors_of_vertices(const Query& query, const Frame& frame) {
           relative_motion<T>(query, 0, 2, frame)};
 }
 
-// A bound of the components of the three vectors of a VertexEdge at all times: the sum of the largest
-// component of a position at t = 0 and the largest component of a velocity, multiplied by 1 + `bound_margin`
-// ε. Each of these two components has an error of at most 2u times the bound, and the sum adds u, so the
-// result is at least the exact bound times 1 + `bound_needs` ε. The result is NaN if a component of a
-// position or a velocity is not finite.
+// A bound on the components of the three vectors of a VertexEdge, which holds at all times. It is the sum of
+// the largest component of a position at t = 0 and the largest component of a velocity, multiplied by 1 +
+// `bound_margin` ε. Each of these two components has an error of at most 2u times the bound, and the sum adds
+// u, so the result is at least the exact bound times 1 + `bound_needs` ε. The result is NaN if a component of
+// a position or a velocity is not finite.
 template <class T>
 T bound_of_vectors(const VertexEdge<T>& ve) {
   const auto largest = [&](const auto& part) {
@@ -76,7 +76,7 @@ struct WithinQuery {
     }
     R = static_cast<T>(ldexp(query.separation, frame.total()));
     if (ldexp(static_cast<double>(R), -frame.total()) < query.separation)
-      R = R * (1 + epsilon<T>()) + T(0x1p-149);  // the smallest float
+      R = R * (1 + epsilon<T>()) + T(0x1p-149);  // 0x1p-149 is the smallest float
   }
 
   /// Whether R is so large that the primitives are certainly within R at t = 0. All components are at most B,

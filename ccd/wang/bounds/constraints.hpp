@@ -1,5 +1,5 @@
-// The inequalities that the tolerances must satisfy. If all hold, `wang` misses nothing, and every pair that
-// it reports comes within the distance bound (§4).
+// The inequalities that the tolerances must satisfy. If all inequalities hold, `wang` misses nothing, and
+// every pair that it reports comes within the distance bound (§4).
 #pragma once
 
 #include <array>
@@ -43,9 +43,9 @@ RoundingErrors<Number> printed_errors(const Number& eps) {
 
 /// The bounds of all errors, for rounding to nearest (u = ε/2) and every ε <= 2^-10. Gappa proves these
 /// bounds (proven.hpp), except the bounds of the solvers' errors, which solver_errors.hpp, cubic.hpp and
-/// vertex_edge.hpp derive. The bounds include errors that the paper omits: the rounding of the relative
-/// vectors themselves (§5), terms of second order in ε, and end points of edges that are within 2B but not
-/// within B.
+/// vertex_edge.hpp derive. The bounds include errors that the paper omits: the errors from the rounding of
+/// the relative vectors (§5), the terms of second order in ε, and the larger errors of end points of edges
+/// that are within 2B of each other but not within B.
 template <class Number>
 constexpr RoundingErrors<Number> full_errors(const Number& eps, const Number& S, const Number& rho) {
   const Number u = eps / 2;
@@ -78,28 +78,29 @@ inline constexpr std::size_t constraint_count = 18;
 /// counts as short in the proofs of §4.4 and §4.5; the algorithms do not use them.
 ///
 /// R is S/√8: then F_0ij <= 0 for every vertex within R of the line of an edge e. The paper has S = 3R
-/// (§3.2), from norms of arbitrary vectors. But x_0i × e = d × e, where d is the distance vector from the
-/// line to the vertex, is at right angles to e. So s · (d × e) <= ‖d‖ √(3 e·e - (s·e)²) for every vector s
-/// whose components are 1 or -1. The radicand is convex in e. Hence it is largest at the corners of the cube
-/// ‖e‖∞ <= 1, where s·e is odd. This gives ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞. For e = (1, 1, 1), some d attains this
-/// bound.
+/// (§3.2), from norms of arbitrary vectors. Let d be the shortest vector from the line to the vertex. Then
+/// x_0i × e = d × e, and this product is at right angles to e. So s · (d × e) <= ‖d‖ √(3 e·e - (s·e)²) for
+/// every vector s whose components are 1 or -1. The radicand is convex in e. Hence the radicand is largest at
+/// the corners of the cube ‖e‖∞ <= 1, where s·e is odd. This gives ‖d × e‖₁ <= √8 ‖d‖ ‖e‖∞. For
+/// e = (1, 1, 1), some vector d attains this bound.
 ///
 /// Why the constraints suffice, in short: if the area test passes, r bounds a distance at the computed root.
 /// For vertex-triangle, this is the distance of the vertex from the triangle's plane; for edge-edge, the
-/// distance between the lines of the two edges. If a collision fails a test, one of these is small: the
-/// triangle (its inscribed circle) or the quadrilateral, an edge, a height, or a weight. Then a vertex comes
-/// within R of an edge at some time (two-event analysis, §3.3.1). VE reports this vertex, unless its length
-/// or weight test fails; then the vertex is within D of an end of the edge, and VV reports it.
+/// distance between the lines of the two edges. If a collision fails a test, something is small: the
+/// inscribed circle of the triangle, the quadrilateral, an edge, a height, or a weight. Then a vertex comes
+/// within R of an edge at some time (two-event analysis, §3.3.1). VE reports this vertex, unless the length
+/// test or the weight test of VE fails. If one of these two tests fails, the vertex is within D of an end of
+/// the edge, and VV reports the vertex.
 ///
-/// The p of a pair that does not collide may be as large as 2B at t = 1. This at most doubles the errors of
-/// the weights, and with them the distance of a false positive from the line of an edge.
+/// The p of a pair that does not collide may be as large as 2B at t = 1. This size at most doubles the errors
+/// of the weights, and so it at most doubles the distance of a false positive from the line of an edge.
 ///
 /// The constraints differ from the paper's (2) and (3) in two points. A false positive can arise in two ways,
-/// which have different largest distances; the paper takes their minimum, where the maximum is correct. The
-/// paper also fixes E_vt at 21/4 ε^½ in (2), and E_ee at 4 ε^½ in (3); with each of these values, the
-/// rounding error of the height test adds 4 ε^½ to η. The paper's claim that the shorter edge of the
-/// quadrilateral is below √τ (§3.4.1) does not hold for edges that are nearly parallel, but the conclusions
-/// from this claim hold.
+/// which have different largest distances. The paper takes the minimum of these two distances, but the
+/// maximum is correct. The paper also fixes E_vt at 21/4 ε^½ in (2), and E_ee at 4 ε^½ in (3); with each of
+/// these values, the rounding error of the height test adds 4 ε^½ to η. The paper's claim that the shorter
+/// edge of the quadrilateral is below √τ (§3.4.1) does not hold for edges that are nearly parallel, but the
+/// paper's conclusions from this claim hold.
 template <class Number>
 auto constraints(const Tolerances<Number>& tol, const Number& E_vt, const Number& E_ee,
                  const RoundingErrors<Number>& errors) {

@@ -10,8 +10,8 @@ namespace nearmiss::proven {
 // For each bound, a row in tests/proofs/ records the formulas of ccd/, and Gappa proves the bound with 11, 53
 // and 256 bits. These proofs suffice for every ε <= 2^-10. Gappa adds and multiplies bounds, so each bound
 // that it proves is a polynomial in u with no negative coefficient and no constant term (or such a polynomial
-// divided by 1 minus another one). Such a bound, divided by u, still grows with u, so the quotient is largest
-// for 11 bits.
+// divided by 1 minus another such polynomial). Such a bound, divided by u, still grows with u, so the
+// quotient is largest for 11 bits.
 //
 // `far` in a name means that some vectors are only within 2B: the p of two edges for t > 0, and the x_0i of
 // the vertex-edge tests of two edges at all times. All other vectors are within B. The paper assumes that all
@@ -50,11 +50,11 @@ inline constexpr double time_far = 23.75;
 
 /// The bound of all errors of the squared distance in VV: the computed squared distance exceeds the exact
 /// minimum by at most this bound, and the exact squared distance at the computed time exceeds the computed
-/// one by at most this bound.
+/// squared distance by at most this bound.
 ///
 /// Let g be the squared distance of the vertices as a function of time, for the computed vectors. Let t be
-/// the time of its minimum in [0, 1], t̂ the computed time, and d the error of the quotient. Then
-/// g(t̂) - g(t) <= ‖v‖² d², because g is a parabola. (If the quotient is clamped to [0, 1], the difference is
+/// the time of the minimum of g in [0, 1], t̂ the computed time, and d the error of the quotient. Then g(t̂)
+/// - g(t) <= ‖v‖² d², because g is a parabola. (If the quotient is clamped to [0, 1], the difference is
 /// smaller.) Scaling v does not change ‖v‖² d², so let ‖v‖∞ = B; then ‖v‖² <= 3B². So the error of the time
 /// contributes at most 3 `time`² ε² B², with ε <= 2^-10.
 constexpr double delta_of(double evaluation, double vectors, double quotient) {

@@ -1,5 +1,5 @@
-// The least thresholds with which the solvers miss nothing: μ, the threshold of |F| in cubic.hpp, and ψ, that
-// of F_0ij in vertex_edge.hpp. All orders of ε are included.
+// The least thresholds with which the solvers miss nothing: μ, the threshold of |F| in cubic.hpp, and ψ, the
+// threshold of F_0ij in vertex_edge.hpp. They include the errors of all orders of ε.
 #pragma once
 
 namespace nearmiss {
@@ -15,8 +15,8 @@ constexpr Number rounding_error(const Number& u, const Number& c, int k) {
 /// E + m, for B = 1 and operations with a relative error of at most u <= 2^-10. With a μ of at least this
 /// size, `solve_cubic` misses no root. `evaluation_error` and `node_error` (ve_culling.hpp) are E and m for
 /// u = ε:
-/// - E: 810 u. The coefficient a has the bound 6, k = 15, and 6 roundings by Horner's rule; b has 18, 15 and
-///   5; c has 18, 12 and 3; d has 6, 8 and 1.
+/// - E: 810 u. The coefficients a, b, c and d have the bounds 6, 18, 18 and 6, with k = 15, 15, 12 and 8.
+///   Horner's rule adds 6, 5, 3 and 1 roundings to their terms.
 /// - m: 3 · 18 u for the c' of `solve_quadratic`, and 3528 u² for the errors of the nodes.
 /// - Underflow: less than 1 u. For double, with B within 2^±100, B³ε >= 2^-352. Underflow in b² or 4ac is
 ///   below η = 2^-1074, and changes c' by η/4|a|. If |a| >= 2^-400, this is below 2^-670. Else, if
@@ -34,8 +34,8 @@ constexpr Number cubic_residual(const Number& u) {
 /// error of at most u <= 2^-10. Positions may be up to 2, as in the vertex-edge tests of two edges. The terms
 /// of ψ are:
 /// - 2Δ: 588 u + 8 S u + 12ρ. Each of the three components of x_0i × x_ji has an error of 98 u: a has the
-///   bound 2 with k = 10; b has 6 with 9; c has 4 with 4 + 2, where 2 is from the c' of `solve_quadratic`.
-///   The components of a and b that are replaced by 0 add 6ρ, and x_ji adds 4 S u.
+///   bound 2 and k = 10, b has the bound 6 and k = 9, and c has the bound 4 and k = 4 + 2. The 2 is from the
+///   c' of `solve_quadratic`. The components of a and b that are replaced by 0 add 6ρ, and x_ji adds 4 S u.
 /// - The computed minimum of a piece: (34 + S) u.
 /// - The time of a candidate has an error of 6 u, and F_0ij changes at a rate of at most 30 + S:
 ///   180 u + 6 S u.

@@ -112,12 +112,13 @@ constexpr double least_size(const Allows& allows) {
 /// constraint on the short edge allows E up to 2g. The constraint on the height allows η up to
 /// 2g/√3 - error/E, and η is at most B. The constraint on the quadrilateral's area allows τ up to
 /// 4g²/√3 - error (the constraint on the triangle's area allows a larger τ). E, η and τ get the largest
-/// allowed values, because these give the smallest r(g) and the smallest g0, above which the constraint on
-/// the weight, g η (τ - error) >= 2 weight, holds. As g grows from g0, R² = g² + r(g)² first falls and then
-/// rises, and its minimum gives R. R gives S, and S gives the `edge_tolerances`, with ρ = ε.
+/// allowed values, because these values give the smallest r(g) and the smallest g0. Here g0 is the g above
+/// which the constraint on the weight, g η (τ - error) >= 2 weight, holds. As g grows from g0, R² = g² +
+/// r(g)² first falls and then rises, and its minimum gives R. R gives S, and S gives the `edge_tolerances`,
+/// with ρ = ε.
 ///
-/// The operations that compute a tolerance have relative errors below 16 ε together. To make up for them, R,
-/// ψ, D² and μ are multiplied by 1 + 16 ε + 2^-30.
+/// The operations that compute a tolerance have relative errors below 16 ε together. To make up for these
+/// errors, R, ψ, D² and μ are multiplied by 1 + 16 ε + 2^-30.
 constexpr ToleranceConstants solve_tight(int eps_exponent) {
   const double eps = detail::power_of_two(eps_exponent);
   const double e = detail::square_root(detail::square_root(eps));
@@ -184,16 +185,18 @@ Tolerances<T> tolerances_of(const ToleranceConstants& c, const T& eps, const T& 
 }
 
 /// The tolerances with the smallest distance bound: 11.9 B ε^¼ for double and wider scalars, 12.1 B ε^¼ for
-/// float. They are failure-proof for every scalar of 11 to 256 bits that rounds to nearest. A scalar that is
-/// narrower than double rounds the coordinates first; then this holds for the rounded coordinates.
+/// float. These tolerances are failure-proof for every scalar of 11 to 256 bits that rounds to nearest. For a
+/// scalar that is narrower than double, the coordinates are rounded first, and the tolerances are
+/// failure-proof for the rounded coordinates.
 template <class T>
 Tolerances<T> tight_tolerances(const T& B) {
   return tolerances_of(tight_constants<T>, epsilon<T>(), B);
 }
 
 /// The tolerances for the question whether a vertex comes within R of an edge. They differ from `tol`, the
-/// tolerances for B, in these: R, S = √8 R, ρ = B²ε, the least ψ, a λ² for which D² is nearly the smallest,
-/// and this D². For S = 0, λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ; for large S, it is smallest at λ³ = 4Sψ.
+/// tolerances for B, in six fields: R, S = √8 R, ρ = B²ε, the least ψ, a λ² for which D² is nearly the
+/// smallest, and this D². For S = 0, λ²/4 + (ψ/λ + S)² is smallest at λ² = 2ψ; for large S, it is smallest at
+/// λ³ = 4Sψ.
 template <class T>
 Tolerances<T> tight_tolerances_of_edge(Tolerances<T> tol, const T& B, const T& R) {
   using std::max;
