@@ -36,6 +36,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#ifndef O_CLOEXEC
+#error "nearmiss_record.h: include it before all other headers, or compile with -std=gnu99 or later"
+#endif
+
 /* Kinds and answers, as in nearmiss_subject.h. */
 #ifndef NEARMISS_VERTEX_TRIANGLE
 #define NEARMISS_VERTEX_TRIANGLE 1 /* vertex x0, triangle x1 x2 x3 */

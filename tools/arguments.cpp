@@ -67,7 +67,7 @@ CLI::Option* SeparationOption::add_to(CLI::App& command, bool can_be_drawn) {
       .add_option(
           "--separation", text,
           fmt::format("Ask whether the primitives come within the distance H of each other, in the unit of "
-                      "the coordinates{}; 0 asks for contact",
+                      "the coordinates{}; 0 asks for contact. Replaces the separations that queries have",
                       can_be_drawn ? "; drawn: each query draws its own" : ""))
       ->type_name(can_be_drawn ? "H|drawn" : "H");
 }

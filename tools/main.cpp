@@ -43,11 +43,9 @@ constexpr const char* about =
 
 constexpr const char* exit_codes =
     "\nExit codes: 0 fine; 1 the results have a miss, a late time, a refuted bound, a fault of a subject, a\n"
-    "subject of which nothing was asked, an oracle disagreement or a wrong recorded truth, or what "
-    "--fail-on\n"
-    "names: committed, unknown, contract, slow; 2 bad usage, bad input, or output that cannot be written "
-    "(one line on\n"
-    "stderr says what); 130 interrupted, everything so far is saved.\n\n"
+    "subject that got no query or left most unanswered, an oracle disagreement or a wrong recorded truth,\n"
+    "or what --fail-on names: committed, unknown, contract, slow; 2 bad usage, bad input, or output that\n"
+    "cannot be written (one line on stderr says what); 130 interrupted, everything so far is saved.\n\n"
     "Environment: NEARMISS_LANES=2, 4 or 8 sets how many doubles are computed side by side, at most as many "
     "as the\n"
     "machine can, which is the default. It changes no answer.";

@@ -19,6 +19,7 @@ namespace {
 
 using Distances = QuestionResults<DistanceQuestion>;
 using Steps = QuestionResults<StepQuestion>;
+using KeptCounts = decltype(StepQuestion::Counts::kept);
 using Findings = std::vector<QuestionFinding>;
 
 // --- text -----------------------------------------------------------------------------------------------
@@ -52,10 +53,10 @@ std::string table(const Distances& results) {
              100 * DistanceError::part_of_distance, DistanceError::part_of_size);
 }
 
-/// A quantile of a histogram, as a percentage. Returns the lower end of the bin that contains the quantile
-/// for the probability `part`.
-std::string percentage(const Histogram& histogram, double part) {
-  return fmt::format("{:.3g} %", 100 * std::min(histogram.quantile(part).from, 1.0));
+/// The quantile for the probability `part` of StepQuestion::Counts::kept.
+std::string percentage(const KeptCounts& kept, double part) {
+  const auto bin = quantile_bin(kept, part);
+  return bin == kept.end() ? "-" : fmt::format("{} %", bin - kept.begin());
 }
 
 std::string table(const Steps& results) {
@@ -114,14 +115,15 @@ std::string simplest(const Findings& findings) {
 
 // --- JSON -----------------------------------------------------------------------------------------------
 
-ordered_json json_of(const Histogram& histogram) {
+/// Quantiles of StepQuestion::Counts::kept in percent (null if there are none), and the count of each percent.
+ordered_json json_of(const KeptCounts& kept) {
   ordered_json json;
   for (const auto& [name, part] :
        {std::pair{"p01", 0.01}, std::pair{"median", 0.5}, std::pair{"p99", 0.99}}) {
-    const Bin bin = histogram.quantile(part);
-    json[name] = {bin.from, std::isfinite(bin.to) ? ordered_json(bin.to) : ordered_json(nullptr)};
+    const auto bin = quantile_bin(kept, part);
+    json[name] = bin == kept.end() ? ordered_json(nullptr) : ordered_json(bin - kept.begin());
   }
-  json["bins"] = histogram.bins;
+  json["counts"] = kept;
   return json;
 }
 

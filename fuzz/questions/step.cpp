@@ -85,7 +85,8 @@ void StepQuestion::Counts::add(const Judged& judged, QueryClass of,
   unsafe_by_class[index] += judged.touches ? 1 : 0;
   cut_free += judged.cuts_free ? 1 : 0;
   objects += judged.objects ? 1 : 0;
-  kept.add(judged.kept);
+  constexpr double rounding = 1e-6;  // in percent; above the error of `kept`
+  ++kept[static_cast<std::size_t>(std::min(100 * judged.kept + rounding, 100.0))];
   if (judged.kept < 1) keep_farthest(least_kept, 1 - judged.kept, judged.query, provenance);
 }
 

@@ -2,6 +2,7 @@
 // this question, and StepQuestion judges their answers.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -16,7 +17,6 @@
 #include "fuzz/stop.hpp"
 #include "reports/statistics/counter.hpp"
 #include "reports/statistics/counts.hpp"
-#include "reports/statistics/histogram.hpp"
 
 namespace nearmiss {
 
@@ -58,8 +58,9 @@ struct StepQuestion {
     QueryClassCounts unsafe_by_class{};  ///< unsafe filtered steps
     std::uint64_t cut_free = 0;          ///< steps with Judged::cuts_free
     std::uint64_t objects = 0;           ///< steps with Judged::objects
-    Histogram kept;                      ///< Judged::kept of all answers
-    std::vector<FarCase> least_kept;     ///< the value of a case is 1 - Judged::kept
+    /// The number of answers for each value of Judged::kept in whole percent, rounded down.
+    std::array<std::uint64_t, 101> kept{};
+    std::vector<FarCase> least_kept;  ///< the value of a case is 1 - Judged::kept
 
     static constexpr auto counters() {
       return std::tuple{Counter{"queries", &Counts::queries},

@@ -44,9 +44,10 @@ bool ends_process(const Verdict& verdict) {
   }
 }
 
-/// Passes queries on to a subject. Refuses further queries when a limit (ShrinkLimits) is reached, and after
-/// a query on which the subject exceeds its time limit. A subject that has exceeded its time limit once is
-/// asked one query at a time, so that it is not asked about the queries after a slow query in vain.
+/// Passes queries on to a subject. Refuses further queries when a limit (ShrinkLimits) is reached. If
+/// `stops_when_slow` is true, also refuses queries after a query on which the subject exceeds its time limit.
+/// A subject that has exceeded its time limit once is asked one query at a time, so that it is not asked
+/// about the queries after a slow query in vain.
 class Limited final : public ForwardingSubject {
   /// Calls `ask`, which asks the subject, and returns its answer. This uses up the work of one call and of
   /// `queries` queries. Throws Error if a limit is reached.
@@ -63,8 +64,13 @@ class Limited final : public ForwardingSubject {
 
  public:
   /// `has_been_slow` outlives this object, and is shared by all threads that ask the subject.
-  Limited(const Subject& to, std::int64_t work, Clock::duration time, std::atomic<bool>& has_been_slow)
-      : ForwardingSubject(to.name(), to), work_(work), time_(time), has_been_slow_(has_been_slow) {}
+  Limited(const Subject& to, std::int64_t work, Clock::duration time, bool stops_when_slow,
+          std::atomic<bool>& has_been_slow)
+      : ForwardingSubject(to.name(), to),
+        work_(work),
+        time_(time),
+        stops_when_slow_(stops_when_slow),
+        has_been_slow_(has_been_slow) {}
 
   using ForwardingSubject::decide;
   void decide(std::span<const Query> queries, std::span<Verdict> verdicts) const override {
@@ -89,11 +95,13 @@ class Limited final : public ForwardingSubject {
     work_ -= ShrinkLimits::of_process * std::count_if(verdicts.begin(), verdicts.end(), ends_process);
     const auto is_slow = [](const Verdict& each) { return each.fault == Fault::time; };
     if (std::none_of(verdicts.begin(), verdicts.end(), is_slow)) return;
-    is_slow_ = has_been_slow_ = true;
+    is_slow_ = stops_when_slow_;
+    has_been_slow_ = true;
   }
 
   mutable std::int64_t work_;
   mutable Clock::duration time_;
+  bool stops_when_slow_;
   mutable bool is_slow_ = false;
   std::atomic<bool>& has_been_slow_;
 };
@@ -203,12 +211,12 @@ class FindingShrinker::OfSubject {
   /// the query rightly.
   [[nodiscard]] Query shrunk_of(const Finding& finding, const std::optional<NoMoreExotic>& among,
                                 const OfSubject* before, const std::function<void()>& check) const {
-    const Limited limited = limited_subject();
+    const bool every_query_is_slow = failure_of(signature_of(finding)) == FailureKind::slow;
+    const Limited limited = limited_subject(!every_query_is_slow);
     const Limited limited_before = before == nullptr ? limited_subject() : before->limited_subject();
     SameFailure same({finding.what, finding.signature}, limited, check);
     if (among) same.only(*among);
     if (before != nullptr) same.only_since(limited_before);
-    const bool every_query_is_slow = failure_of(signature_of(finding)) == FailureKind::slow;
     const auto small =
         every_query_is_slow
             ? std::nullopt
@@ -218,8 +226,8 @@ class FindingShrinker::OfSubject {
     return subject_.rounded(shrunk(begins_small ? small->query : finding.query, std::cref(same)));
   }
 
-  [[nodiscard]] Limited limited_subject() const {
-    return {subject_, limits_.work / 2, limits_.time / 2, has_been_slow_};
+  [[nodiscard]] Limited limited_subject(bool stops_when_slow = true) const {
+    return {subject_, limits_.work / 2, limits_.time / 2, stops_when_slow, has_been_slow_};
   }
 
   /// The small queries on which the subject fails. They have the same kind as `query`, and they have
@@ -295,10 +303,9 @@ Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& s
                    const ShrinkLimits& limits) {
   Finding copy = finding;
   if (subject != nullptr) copy.subject = subject->name();
-  copy.query_class = QueryClass::unclassified;
   const std::size_t count = subject == nullptr ? 0 : 1;
   FindingShrinker(std::span(&subject, count), stop, limits).shrink(copy);
-  return copy.simplest;
+  return copy.shrunk;
 }
 
 }  // namespace nearmiss

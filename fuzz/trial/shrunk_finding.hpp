@@ -67,8 +67,8 @@ class FindingShrinker {
   std::vector<std::unique_ptr<OfSubject>> of_;
 };
 
-/// The finding's query, shrunk to a query that fails with the same signature. `subject` may be null for a
-/// failure of the oracle. Throws Stopped when `stop` is due.
+/// The finding's query, shrunk to a query that fails with the same signature and, if the finding has a class,
+/// is of that class. `subject` may be null for a failure of the oracle. Throws Stopped when `stop` is due.
 Query shrunk_query(const Finding& finding, const Subject* subject, const Stop& stop = Stop::never(),
                    const ShrinkLimits& limits = {});
 

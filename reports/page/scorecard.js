@@ -24,7 +24,7 @@ const sizeNotes = (subject) => (report.sizes ?? []).filter((row) => row.subject 
  * the rates of the other classes, then the sum. Otherwise it shows the sum, then the rates of all classes.
  */
 const missedCell = ({ counts, classes, subject, failures }) => {
-  if (failures.includes("unjudged")) return [made("strong", "not asked", { class: "bad" })];
+  if (failures.includes("unjudged") && counts.collisions === 0) return [made("strong", "not judged", { class: "bad" })];
   if (counts.collisions === 0) return ["no collision"];
   const [first, ...others] = Object.entries(classes).filter(([, each]) => each.collisions > 0);
   const rateOf = ([name, each]) => `${name} ${each.false_negatives === 0 ? "0" : percent(each.false_negative_rate)}`;

@@ -74,20 +74,18 @@ std::string group_text(const std::vector<const SubjectVerdict*>& group) {
                      has_class ? fmt::format(" {} queries", name(first.least_exotic)) : "");
 }
 
-bool is_unjudged(const SubjectVerdict& verdict) { return verdict.failures.contains(FailureKind::unjudged); }
-
 /// Says which subjects failed, which were asked nothing, and which did not fail. If only one subject failed,
 /// the text also says how. If several subjects failed, the text groups them by the least exotic class of
 /// queries in which they failed.
 std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   std::map<QueryClass, std::vector<const SubjectVerdict*>> failed;
-  std::vector<std::string> unjudged;
+  std::map<std::string, std::vector<std::string>> unjudged;  // by how they are unjudged
   std::vector<std::string> clean;
   std::vector<std::string> parts;
   for (const SubjectVerdict& each : verdicts) {
     if (is_beyond_contract(each.subject)) continue;
-    if (is_unjudged(each))
-      unjudged.push_back(each.subject);
+    if (!each.said.empty() && each.said.begin()->first == FailureKind::unjudged)
+      unjudged[each.said.begin()->second].push_back(each.subject);
     else if (each.clean)
       clean.push_back(each.subject);
     else
@@ -99,9 +97,7 @@ std::string who_failed(const std::vector<SubjectVerdict>& verdicts) {
   } else {
     for (const auto& [in, group] : failed) parts.push_back(group_text(group));
   }
-  if (!unjudged.empty())
-    parts.push_back(
-        fmt::format("{} {} asked nothing", subjects(unjudged), unjudged.size() == 1 ? "was" : "were"));
+  for (const auto& [how, names] : unjudged) parts.push_back(fmt::format("{} {}", subjects(names), how));
   if (!clean.empty()) parts.push_back(fmt::format("{} did not fail", subjects(clean)));
   return fmt::format("{}", fmt::join(parts, "; "));
 }

@@ -171,6 +171,17 @@ std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const Failu
   return {of, fmt::format("{} {}{}{}", failure.verb, in_families, both ? ", and " : "", elsewhere)};
 }
 
+bool has_answered(const Counts& counts) {
+  const auto unanswered = [&](FailureKind kind) { return failure_info(kind).count(counts); };
+  return counts.queries > unanswered(FailureKind::slow) + unanswered(FailureKind::contract);
+}
+
+/// The verb and the object of a sentence about one or more unjudged subjects.
+std::string_view unjudged_words(const Counts& counts) {
+  if (has_answered(counts)) return "left most queries unanswered";
+  return failure_info(FailureKind::slow).count(counts) > 0 ? "answered no query in time" : "got no query";
+}
+
 /// For each failure that counts, says in words how the subject failed, in the least exotic class with this
 /// failure.
 void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerdict& verdict) {
@@ -178,7 +189,8 @@ void say_failures(const OfSubject& subject, const Failures& failing, SubjectVerd
     verdict.clean = false;
     const FailureInfo& failure = failure_info(kind);
     if (kind == FailureKind::unjudged) {
-      verdict.said[kind] = verdict.first = failure.verb;
+      verdict.said[kind] = unjudged_words(subject.all);
+      if (verdict.first.empty()) verdict.first = verdict.said[kind];
       continue;
     }
     if (least_exotic_part(subject.parts, failure) == subject.parts.end()) continue;
@@ -223,6 +235,7 @@ std::string false_positive_text(const Counts& counts) {
   return text + ", the farthest " + times_the_bound(counts.max_ratio(), counts.distance_unit());
 }
 
+/// The text of a verdict on a subject that has answered nothing.
 std::string unjudged_text(const Counts& counts) {
   if (counts.queries == 0) return "NOT ASKED: it decides no query of this sort";
   if (failure_info(FailureKind::slow).count(counts) == 0)
@@ -250,6 +263,8 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
     if (failures.contains(kind))
       parts.push_back(fmt::format("{} {}", words, failed_text(subject, failure_info(kind))));
   };
+  const bool is_slow_first = failures.contains(FailureKind::unjudged);
+  if (is_slow_first) parts.push_back(slow_text(counts));
   if (!failures.contains(FailureKind::miss))
     parts.push_back(fmt::format("no miss in {}", counted(counts.collisions, "collision", "collisions")));
   add_by_class(FailureKind::miss, "MISSED");
@@ -261,7 +276,7 @@ std::vector<std::string> verdict_parts(const Failures& failures, const OfSubject
     parts.push_back(fmt::format("{} of {} sound times lead to a step that touches, once rounded",
                                 with_separators(counts.committed),
                                 with_separators(counts.times_promised - counts.late)));
-  if (failures.contains(FailureKind::slow)) parts.push_back(slow_text(counts));
+  if (failures.contains(FailureKind::slow) && !is_slow_first) parts.push_back(slow_text(counts));
   if (failures.contains(FailureKind::unknown))
     parts.push_back(fmt::format("UNKNOWN in {} of {}", with_separators(counts.unknown()),
                                 counted(counts.queries, "query", "queries")));
@@ -285,8 +300,8 @@ std::string answered_text(const Failures& failures, const OfSubject& subject) {
 SubjectVerdict verdict_on(const std::string& name, const OfSubject& subject, const Failures& failing) {
   SubjectVerdict verdict{.subject = name, .failures = failures_of(name, subject.all), .text = {}, .said = {}};
   if (!is_beyond_contract(name)) say_failures(subject, failing, verdict);
-  verdict.text = verdict.failures.contains(FailureKind::unjudged) ? unjudged_text(subject.all)
-                                                                  : answered_text(verdict.failures, subject);
+  verdict.text =
+      has_answered(subject.all) ? answered_text(verdict.failures, subject) : unjudged_text(subject.all);
   return verdict;
 }
 

@@ -20,10 +20,11 @@ std::uint64_t beyond(const Counts& counts) { return counts.without_answer(Fault:
 
 std::uint64_t faulty(const Counts& counts) { return counts.faults_total() - slow(counts) - beyond(counts); }
 
-/// 1 if nothing is known about the subject because it was asked nothing or answered nothing in time; 0
-/// otherwise.
+/// 1 if too little is known about the subject, because it was asked nothing, or was too slow to answer at
+/// least half of the queries that it was to answer; 0 otherwise.
 std::uint64_t unjudged(const Counts& counts) {
-  return counts.queries == slow(counts) + beyond(counts) ? 1 : 0;
+  const std::uint64_t to_answer = counts.queries - beyond(counts);
+  return to_answer == 0 || slow(counts) > to_answer / 2 ? 1 : 0;
 }
 
 std::uint64_t none(const Counts& /*counts*/) { return 0; }
@@ -47,7 +48,7 @@ constexpr std::array<FailureInfo, 12> infos{{
      [](const Counts& counts) { return counts.false_positives; }, &Counts::refuted_by_class},
     {FailureKind::fault, "fault", false, "failed to answer", "query", "queries", faulty, queries,
      &Counts::faults_by_class},
-    {FailureKind::unjudged, "unjudged", false, "was asked nothing", "", "", unjudged, queries},
+    {FailureKind::unjudged, "unjudged", false, "answered too few queries", "", "", unjudged, queries},
     {FailureKind::committed, "committed", true, "committed a step with contact in", "time", "times",
      [](const Counts& counts) { return counts.committed - counts.unsafe_steps; },
      [](const Counts& counts) { return counts.times_promised; }, &Counts::committed_by_class},

@@ -24,7 +24,7 @@ enum class FailureKind : std::uint8_t {
   unsafe_step,   ///< contact in the rounded step to a sound lower bound, though the subject promised none
   beyond_bound,  ///< a false positive is farther away than claimed
   fault,         ///< there is no answer, for a reason other than time or a contract
-  unjudged,      ///< the subject was not asked any query, or did not answer any in time
+  unjudged,      ///< the subject got no query, or was too slow to answer half of its queries
   committed,     ///< contact in the rounded step to a sound lower bound, with no promise about that step
   unknown,       ///< the subject could not tell whether the primitives collide
   contract,      ///< a query was not asked, because it breaks the subject's contract

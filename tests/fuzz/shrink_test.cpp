@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "fuzz/families/classify.hpp"
 #include "fuzz/families/families.hpp"
 #include "fuzz/trial/judge.hpp"
 #include "fuzz/trial/shrunk_finding.hpp"
@@ -139,6 +140,30 @@ TEST(Shrink, ALateTimeStaysLate) {
       ++late;
     }
   EXPECT_GT(late, 4);
+}
+
+TEST(Shrink, KeepsTheClassOfAFinding) {
+  const auto basic = make_subject("basic");
+  int changed = 0;
+  for (Finding finding : missed_by_basic()) {
+    const Query simplest = shrunk_query(finding, basic.get());
+    finding.query_class = classify(finding.query);
+    const Query shrunk = shrunk_query(finding, basic.get());
+    EXPECT_EQ(classify(shrunk), finding.query_class) << finding.provenance;
+    if (shrunk != simplest) ++changed;
+  }
+  EXPECT_GE(changed, 1);
+}
+
+TEST(Shrink, AQueryOverTheTimeLimitBecomesSimple) {
+  const Query query = make_query(find_family("uniform"), 1, 0);
+  const MadeUpSubject hangs("hangs", [](const Query& q) {
+    return q.x[3] > 0.25 ? Verdict{.fault = Fault::time} : Verdict::rejected(Rejection::untold);
+  });
+  const Finding finding{Finding::What::fault, "hangs", "uniform", query, "uniform:1:0", 0, "vt time", query};
+  Query expected{.kind = query.kind};
+  expected.x[3] = expected.x[12 + 3] = 1;
+  EXPECT_EQ(shrunk_query(finding, &hangs), expected);
 }
 
 TEST(Shrink, AsksASlowSubjectAFewTimesOnly) {

@@ -308,7 +308,7 @@ TEST(JUnit, PrefersFindingsWhoseQueryHasTheClassOfTheTest) {
 TEST(JUnit, ASubjectThatWasAskedNothingFails) {
   Campaign campaign;
   campaign.statistics.counts[{"idle", Kind::vertex_triangle, "uniform"}] = {};
-  EXPECT_THAT(junit_xml(campaign), HasSubstr("<failure message=\"was asked nothing\" type"));
+  EXPECT_THAT(junit_xml(campaign), HasSubstr("<failure message=\"answered too few queries\" type"));
 }
 
 TEST(JUnit, EscapesNames) {

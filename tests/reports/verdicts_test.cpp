@@ -151,6 +151,12 @@ TEST(Verdicts, NothingAskedAndNothingAnsweredAreNoPass) {
   EXPECT_EQ(
       line_of(with(with(counts(9, 0, 0, 0), Fault::time, 3), Fault::not_asked, 6)),
       "FAIL mine: NO ANSWER IN TIME, SLOW in 9 queries (3 over the time limit, 6 not asked after that)\n");
+  EXPECT_EQ(
+      line_of(with(counts(9, 1, 0, 0), Fault::time, 4)),
+      " ok  mine: no miss in 1 collision, SLOW in 4 queries (4 over the time limit), no false positive\n");
+  EXPECT_EQ(
+      line_of(with(counts(9, 1, 0, 0), Fault::time, 5)),
+      "FAIL mine: SLOW in 5 queries (5 over the time limit), no miss in 1 collision, no false positive\n");
 }
 
 TEST(Verdicts, NothingFailsBeyondAContract) {
@@ -237,7 +243,13 @@ TEST(Headline, ASubjectOfWhichNothingWasAskedHasNotPassed) {
   Statistics of;
   of.counts[{"a", Kind::vertex_triangle, "uniform"}] = counts(9, 5, 0, 0);
   of.counts[{"b", Kind::vertex_triangle, "uniform"}] = {};
-  EXPECT_EQ(headline(of, std::nullopt).text, "b was asked nothing; a did not fail.");
+  EXPECT_EQ(headline(of, std::nullopt).text, "b got no query; a did not fail.");
+  of.counts[{"c", Kind::vertex_triangle, "uniform"}] = with(counts(9, 1, 0, 0), Fault::time, 5);
+  EXPECT_EQ(headline(of, std::nullopt).text,
+            "b got no query; c left most queries unanswered; a did not fail.");
+  of.counts[{"c", Kind::vertex_triangle, "uniform"}] = with(counts(9, 1, 1, 0), Fault::time, 5);
+  EXPECT_EQ(headline(of, std::nullopt).text,
+            "c failed: it missed 1 of 1 ordinary vt collision; b got no query; a did not fail.");
   EXPECT_FALSE(headline(of, std::nullopt).clean);
 }
 

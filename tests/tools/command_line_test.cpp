@@ -108,10 +108,11 @@ TEST_F(CommandLine, FuzzSweepsAllFamiliesOfTheKindsThatASubjectDecides) {
   EXPECT_THAT(swept("--sweep all --subject exact"), Not(Contains(StartsWith("v-"))));
 }
 
-TEST_F(CommandLine, ASceneWithoutUndecidedPairsSaysThatNothingWasAsked) {
+TEST_F(CommandLine, ASceneWithoutUndecidedPairsIsNoSuccessBecauseNothingWasAsked) {
   write("flat.obj", two_triangles("1"));
+  expect_code(0, "scene flat.obj flat.obj --plan-only");
   EXPECT_THAT(
-      expect_code(0, "scene flat.obj flat.obj").out,
+      expect_code(1, "scene flat.obj flat.obj").out,
       HasSubstr("no subject was asked, neither about the pairs, which the plan decides (--leave-out boxes "
                 "asks about them), nor around them\n"));
 }

@@ -267,7 +267,8 @@ int run(SceneOptions options) {
   Record record(options.record, info, {.environment = plugins});
   const Held held = hold_trials(options, scene, all.subjects, record, stop);
   fmt::print(text, "{}", held.scene);
-  if (record.statistics().counts.empty())
+  const bool is_nothing_asked = record.statistics().counts.empty();
+  if (is_nothing_asked)
     fmt::print(
         text,
         "no subject was asked, neither about the pairs, which the plan decides (--leave-out boxes asks about "
@@ -288,7 +289,8 @@ int run(SceneOptions options) {
       longer = longer_hunt(options);
     }
   }
-  const int code = record.finish(stop.is_requested(), !stop.is_requested());
+  int code = record.finish(stop.is_requested(), !stop.is_requested());
+  if (code == exit_fine && is_nothing_asked && !options.plan_only) code = exit_found;
   fmt::print(text, "{}{}", few, longer);
   if (!options.verify_plan || stop.is_requested()) return code;
   const double asking = held.asking.count();

@@ -1,4 +1,4 @@
-// nearmiss shrink: finds the simplest query on which a subject fails in the same way as on a given query.
+// nearmiss shrink: finds the simplest query, of the class of a given query, on which a subject fails in the same way.
 #include <fmt/format.h>
 
 #include <array>
@@ -7,6 +7,7 @@
 #include "ccd/query/error.hpp"
 #include "corpus/file.hpp"
 #include "corpus/readers.hpp"
+#include "fuzz/families/classify.hpp"
 #include "fuzz/subjects/contracted.hpp"
 #include "fuzz/subjects/subjects.hpp"
 #include "fuzz/trial/judge.hpp"
@@ -51,7 +52,8 @@ Finding find_failure(const Case& each, const Subject& subject) {
             .family = {},
             .query = each.query,
             .provenance = each.name,
-            .signature = failure->signature};
+            .signature = failure->signature,
+            .query_class = classify(each.query)};
   throw Error(
       fmt::format("{}: {} does not fail, expected a missed collision, a late time, a report beyond its "
                   "bound, no answer or an "
@@ -110,8 +112,8 @@ void run(const ShrinkOptions& options) {
 
 void add_shrink(CLI::App& app, int& /*exit_code*/) {
   auto options = std::make_shared<ShrinkOptions>();
-  auto* command =
-      app.add_subcommand("shrink", "Turn a failing query into the simplest one that fails in the same way");
+  auto* command = app.add_subcommand(
+      "shrink", "Turn a failing query into the simplest one of its class that fails in the same way");
   command->add_option("CASE", options->in, "A *.case file, or a *.vt, *.ee, *.vv or *.ve file of one query")
       ->required();
   command
