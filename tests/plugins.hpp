@@ -15,7 +15,8 @@ namespace nearmiss::testing {
 
 inline std::string plugin(const std::string& name) { return NEARMISS_PLUGINS "/" + name + ".so"; }
 
-/// The index in queries() of the query at which a plug-in does what its name says, for example `crash`.
+/// The index in queries() of one query. At this query, a plug-in does what its name says: the plug-in `crash`
+/// crashes, for example.
 inline constexpr std::size_t chosen = 40;
 inline std::vector<Query> queries() {
   std::vector<Query> some(100, falling_vertex(0.25, 0.25, 1, -1));

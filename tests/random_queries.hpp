@@ -1,4 +1,4 @@
-// Random queries for tests, and the command that repeats a query.
+// Random queries for tests, and the command that asks the oracle about one of them again.
 #pragma once
 
 #include <sstream>

@@ -1,4 +1,4 @@
-// Tests of calls that must throw an Error.
+// Checks that calls throw an Error.
 #pragma once
 
 #include <gmock/gmock.h>

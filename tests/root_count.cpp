@@ -44,8 +44,8 @@ struct OnEdge {
   Polynomial off_line, beyond;
 };
 
-/// The polynomials in t whose signs decide whether the primitives meet. Coordinates are integers, in units of
-/// a power of two.
+/// The polynomials in t whose signs decide whether the primitives meet. Coordinates are expressed as integer
+/// multiples of a power of two.
 struct Polynomials {
   Polynomial F;
   Polynomial area;                  ///< N · N
@@ -117,8 +117,8 @@ int multiplicity(Polynomial p, const Root& t) {
   return m;
 }
 
-/// Whether the primitives meet in [0, 1], if F, the coplanarity cubic, is identically zero. The times of
-/// contact are a closed set, and the first of them is 0 or a root of a polynomial in `deciding`.
+/// Whether the primitives meet in [0, 1] if F, the coplanarity cubic, is identically zero. The times of
+/// contact are a closed set, and the first time of contact is 0 or a root of a polynomial in `deciding`.
 bool meet_in_a_plane(const Polynomials& of) {
   std::vector<Polynomial> deciding{of.area};
   deciding.insert(deciding.end(), of.weights.begin(), of.weights.end());

@@ -9,7 +9,7 @@ namespace nearmiss::testing {
 struct RootCount {
   bool collision = false;
   bool planar = false;        ///< F is identically zero, so there are no roots to count
-  bool on_boundary = false;   ///< a contact is at t = 0 or 1, or at a border, or has N = 0 or F ≡ 0
+  bool on_boundary = false;   ///< a contact is at t = 0 or 1 or at a border, or N = 0 or F ≡ 0 there
   int distinct = 0;           ///< number of distinct roots at which the primitives meet
   int with_multiplicity = 0;  ///< number of these roots, each counted with its multiplicity
 

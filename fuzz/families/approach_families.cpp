@@ -1,5 +1,5 @@
 // Queries in which the distance just falls to the separation h > 0, or falls to it at a time that is hard to
-// find. In most of these families, numbers have few bits, so that distances and times are exact. x is the
+// find. In most of these families, coordinates have few bits, so that distances and times are exact. x is the
 // family's parameter.
 #include <array>
 #include <cmath>
@@ -34,9 +34,9 @@ Vector approaching(Random& random) {
 
 // --- at the smallest distance ---------------------------------------------------------------------------
 
-/// A query of another family, with primitives that stay apart. Let d be the smallest distance, rounded up to
-/// a double. In half of the queries, h is (1 + 2^x) d; in the other half, h is (1 - 2^x) times the double
-/// below d. With x = -54, these values of h are d and the double below d.
+/// A query of another family in which the primitives stay apart. Let d be their smallest distance, rounded up
+/// to a double. In half of the queries, h is (1 + 2^x) d; in the other half, h is (1 - 2^x) times the double
+/// below d. If x = -54, rounding makes these values of h equal to d and to the double below d.
 Query near_separation(Random& random, Kind kind, double x) {
   constexpr std::array bases{"uniform",    "uniform-end", "uniform-slow", "decimals",
                              "kilometres", "needle",      "rigid",        "near-parallel-edges"};
@@ -94,9 +94,9 @@ struct Sides {
 };
 
 /// The distance falls below h at a time inside the step. At a time about 2^x earlier, a closest point moves
-/// from an end of a side into its interior, or from the interior to an end. If the closest point moves into
-/// the interior, the weight of the point is 2^x when the distance is h. If the closest point moves to an end,
-/// the slope of the side relative to the plane z = 0 is about 2^x.
+/// from an end of a side into the interior of the side, or from the interior to an end. If the closest point
+/// moves into the interior, the weight of the point is 2^x when the distance is h. If the closest point moves
+/// to an end, the slope of the side relative to the plane z = 0 is about 2^x.
 Query changed_features(Random& random, Kind kind, double x) {
   const double before = power_of_two(x);
   const double time = sixteenths(random, 1, 15);
@@ -136,9 +136,9 @@ Query starts_near_separation(Random& random, Kind kind, double x) {
 
 // --- other sizes of h -----------------------------------------------------------------------------------
 
-/// Primitives of size 1 to 4, and h about 4 * 10^x. In half of the queries, the primitives come within h. In
-/// the others, they pass each other at a distance of h, h + 1/8 or h - 1/8; if h is less than 1/8, at a
-/// distance of h, 2 h or 0.
+/// The primitives have a size of 1 to 4, and h is about 4 * 10^x. In half of the queries, the primitives come
+/// within h of each other. In the others, they pass each other at a distance of h, h + 1/8 or h - 1/8 or, if
+/// h is less than 1/8, of h, 2 h or 0.
 Query sized_separation(Random& random, Kind kind, double x) {
   constexpr double least_that_turns = 0x1p-42;  // for a smaller h, turned() may need more than 53 bits
   const double h = 4 * power_of_ten(x);

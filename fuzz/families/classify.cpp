@@ -1,5 +1,5 @@
 // The rules of README.md, "Classes". Each rule is a template, which is instantiated with intervals and with
-// exact numbers. F is the coplanarity cubic, t* the earliest time at which the distance is at most the
+// exact numbers. F is the coplanarity cubic, and t* is the earliest time at which the distance is at most the
 // separation h.
 #include "fuzz/families/classify.hpp"
 
@@ -33,11 +33,11 @@ using exact::Number;
 using exact::Polynomial;
 using exact::Root;
 
-/// An interval; operations must run in the rounding mode `upward`. Converting an undecided comparison of
-/// intervals to bool throws.
+/// An interval. Its operations need the rounding mode `upward`. If intervals do not decide a comparison,
+/// converting the result of the comparison to bool throws an exception.
 using Interval = CGAL::Interval_nt<false>;
 
-/// Returns the answer of `in_intervals` or, if intervals do not decide, that of `exactly`.
+/// Returns the answer of `in_intervals` or, if intervals do not decide, the answer of `exactly`.
 template <class InIntervals, class Exactly>
 bool filtered(const InIntervals& in_intervals, const Exactly& exactly) {
   try {
@@ -71,9 +71,9 @@ Real largest_component(const Vec<Real>& v) {
   return largest;
 }
 
-/// The length of the longest edge and of the shortest edge, at t = 0 or t = 1, and the length of the longest
-/// displacement of a vertex. The length of a vector is the largest magnitude of its components. Two vertices
-/// have no edges; the vector from one to the other counts as an edge.
+/// The lengths of the longest and of the shortest edge at t = 0 and t = 1, and the length of the longest
+/// displacement of a vertex in the step. The length of a vector is the largest magnitude of its components.
+/// Two vertices have no edges; the vector from one to the other counts as an edge.
 template <class Real>
 struct Lengths {
   Real longest = 0;
@@ -127,7 +127,8 @@ bool is_extreme(const Query& query) {
 constexpr double nearly = 1e-6;
 constexpr std::string_view extreme = "extreme";
 
-/// The vertices at a time, their velocities, and the squared distance up to which is_near() is true.
+/// The positions and velocities of the vertices at a time, and the square of the distance up to which
+/// is_near() is true.
 template <class Real>
 struct Moment {
   Kind kind{};
@@ -150,7 +151,7 @@ Moment<Interval> moment_in_intervals(const Query& query, const Enclosure& time, 
   return moment;
 }
 
-/// The Moment at every time t, as polynomials in t.
+/// The Moment at every time t: its members are polynomials in t.
 Moment<Polynomial> exact_moment(const Query& query, double length) {
   const exact::Unit unit(query);
   const Number scaled = unit.scaled(length);
@@ -235,7 +236,7 @@ bool is_coplanar(const Moment<Real>& moment, const AtMost& at_most) {
   return at_most(multiple_of_square(squared_inverse * excess(moment.kind), F), first * second * gap);
 }
 
-/// Whether F' almost vanishes. The time of `moment` must be a root of F.
+/// Whether F' almost vanishes at the time of `moment`, which must be a root of F.
 template <class Real, class AtMost>
 bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
   const auto [p, q, r] = spans(moment.kind, moment.x);
@@ -248,8 +249,9 @@ bool is_multiple_root(const Moment<Real>& moment, const AtMost& at_most) {
                      size.first * size.second * speed.gap);
 }
 
-/// Whether a vertex is near an edge: near an end of the edge, or near the line of the edge and between the
-/// two planes through the ends of the edge that are perpendicular to the edge.
+/// Whether a vertex is near an edge. This is so if the vertex is near an end of the edge. It is also so if
+/// the vertex is near the edge's line and lies between the two planes that are perpendicular to the edge and
+/// contain its ends.
 template <class Real, class AtMost>
 bool is_near(const Moment<Real>& moment, const VertexAndEdge& pair, const AtMost& at_most) {
   const Vec<Real> from_a = moment.x[pair.vertex] - moment.x[pair.from];
@@ -273,7 +275,7 @@ bool touches_border(const Moment<Real>& moment, const AtMost& at_most) {
                      [&](const VertexAndEdge& pair) { return is_near(moment, pair, at_most); });
 }
 
-/// Whether t* <= time. This differs from EarliestTime::is_before only if t* is exactly `time`.
+/// Whether t* <= time. The result differs from that of EarliestTime::is_before only if t* is exactly `time`.
 bool is_at_most(EarliestTime& first, double time) {
   if (first.is_before(time)) return true;
   return first.is_before(std::nextafter(time, 2.0)) && first.enclosure() == Enclosure{time, time};

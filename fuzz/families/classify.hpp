@@ -8,7 +8,7 @@
 
 namespace nearmiss {
 
-/// The class of a query by the rules of README.md, "Classes": ordinary, degenerate or extreme, never
+/// The class of a query by the rules of README.md, "Classes". It is ordinary, degenerate or extreme, never
 /// `unclassified`. The rules are inequalities between polynomials, some of them evaluated at the time of the
 /// first contact. Interval arithmetic decides nearly all inequalities, and exact arithmetic decides the
 /// others. So the answer is exact for every query, even if the two sides of an inequality are equal. A query

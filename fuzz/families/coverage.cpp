@@ -53,8 +53,7 @@ std::string text_of(const Numbering& numbering, std::size_t place, int values) {
 }
 
 /// Counts the combinations that the family makes (`made`), and those of them that occur in the given queries
-/// (`seen`). Lists, as missing, the combinations that the family makes and that do not occur in these
-/// queries.
+/// (`seen`). Lists the other combinations that the family makes as missing.
 Combinations compared(const Numbering& numbering, const std::vector<bool>& seen,
                       const std::vector<bool>& made, int values) {
   Combinations result;

@@ -40,7 +40,7 @@ bool is_free(Motion motion) {
 }
 
 /// Whether the family makes queries of this shape and motion with these roots of F. F is τ det(w, q, r),
-/// where τ, w, q and r are as at the top of crossed_family.cpp.
+/// where the comment at the top of crossed_family.cpp defines τ, w, q and r.
 bool has_roots(Shape shape, Motion motion, Roots roots) {
   if (roots == Roots::all) return true;
   if (motion == Motion::rest) return false;  // F is constant

@@ -1,5 +1,5 @@
-// The factors of the family `crossed`: properties that vary from query to query. A query draws the value of
-// each factor independently of the other values.
+// The factors of the family `crossed`: properties that vary from query to query. Each query draws a value of
+// every factor, independently of the other values.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ struct Factor {
   std::span<const std::string_view> values;
 };
 
-// The values of the first five factors, in the order of Factor::values. README.md says what the values mean.
+// The values of the first five factors, each in the order of Factor::values. README.md explains the values.
 enum class Shape : std::uint8_t { ordinary, sliver, needle, tiny, parallel, zero_edge, point };
 enum class Motion : std::uint8_t { translation, rotation, collapse, deforming, fast, slow, along, rest };
 enum class When : std::uint8_t { at_0, after_0, inside, before_1, at_1, outside };
@@ -27,8 +27,8 @@ enum class Roots : std::uint8_t { one, two, three, double_root, triple, all };
 
 inline constexpr std::size_t factor_count = 7;
 
-/// The levels of a query: for each factor, the index of the query's value in Factor::values. The order of the
-/// factors is shape, motion, when, where, roots, scale, offset.
+/// The levels of a query. A query has one level for each factor: the index of the query's value in
+/// Factor::values. The order of the factors is shape, motion, when, where, roots, scale, offset.
 struct Levels : std::array<std::uint8_t, factor_count> {
   [[nodiscard]] Shape shape() const { return static_cast<Shape>((*this)[0]); }
   [[nodiscard]] Motion motion() const { return static_cast<Motion>((*this)[1]); }
@@ -39,12 +39,13 @@ struct Levels : std::array<std::uint8_t, factor_count> {
   [[nodiscard]] std::size_t offset() const { return (*this)[6]; }
 };
 
-/// All factors, in the order of Levels.
+/// All factors, in the order of the levels in Levels.
 std::span<const Factor> factors();
 
 bool is_made(const Levels& levels);
 
-/// Draws every level independently. If the family makes no query with these levels, draws all of them again.
+/// Draws every level independently. If the family makes no query with the drawn levels, draws all of them
+/// again.
 Levels draw_levels(Random& random);
 
 /// The levels of query `index` of the family, without making the query.
@@ -55,16 +56,16 @@ std::vector<std::string> to_texts(const Levels& levels);
 
 Query make_query(Random& random, Kind kind, const Levels& levels);
 
-/// Counts combinations of the values of two factors, or of three: `made` is the number of combinations that
-/// the family makes, `seen` the number of these combinations that occur in the queries that coverage() looks
-/// at.
+/// Counts the combinations of values of two factors, or of three factors. `made` is the number of
+/// combinations that occur in any queries of the family. `seen` is the number of those that occur in the
+/// queries that coverage() looks at.
 struct Combinations {
   std::uint64_t made = 0;
   std::uint64_t seen = 0;
   std::vector<std::string> missing;  ///< made, but not seen: for example, "shape=sliver when=at-1"
 };
 
-/// Which combinations of values occur in the queries that coverage() looks at.
+/// The combinations of values that occur in the queries that coverage() looks at.
 struct Coverage {
   Combinations pairs, triples;
   std::vector<std::string> pairs_not_made;

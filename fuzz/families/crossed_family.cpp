@@ -1,7 +1,7 @@
-// The family `crossed`. Each query is made so that p = α q + β r + τ w, where p goes from the base to the
-// first primitive's point of contact, q and r are the sides, w is the relative velocity of the points of
-// contact, and τ = t - time is the time since the contact. Then F, the coplanarity cubic, is τ det(w, q(t),
-// r(t)), so the choice of w, q and r determines the roots.
+// The family `crossed`. Each query is made so that x0 - base = s α q + β r + τ w (contacts.hpp). Here s =
+// alpha_sign(kind), q and r are the sides, w is the relative velocity of the points of contact, and τ = t -
+// time is the time since the contact. F, the coplanarity cubic, is the determinant of x0 - base, q and r. So
+// F is τ det(w, q(t), r(t)), and the choice of w, q and r determines the roots.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -23,7 +23,7 @@ struct Draft {
   Vector q, r, q_velocity, r_velocity, w;
 };
 
-/// A vector of small integers, not zero.
+/// A nonzero vector whose components are small integers.
 Vector small(Random& random) {
   const Vector v = random.integer_vector(7);
   return v.isZero() ? Vector(Vector::UnitX()) : v;
@@ -95,8 +95,8 @@ double shrinking(double time) {
   return left < 1.0 / 16 ? 16 : (std::ceil(16 / left) - 1) / 16;
 }
 
-/// Draws w, and makes the sides turn around an axis, shrink or stay as they are. F has one root, has a double
-/// root at the contact, or is zero.
+/// Draws w, and makes the sides turn around an axis, shrink or stay as they are. Then F has one root, or a
+/// double root at the contact, or is zero.
 void turn_or_shrink(Random& random, Draft& draft, const Levels& levels, double time) {
   const bool in_the_plane = levels.roots() != Roots::one;
   const auto [a, b] = plane(random, draft);
@@ -201,8 +201,8 @@ bool has_planned_roots(const Draft& draft, Roots roots) {
 
 // --- place and time ---------------------------------------------------------------------------------
 
-/// The weights of the point of contact: multiples of 1/16; if the point must be outside, one weight is beyond
-/// its limit by 2^-10 to 2^-52.
+/// The weights of the point of contact. They are multiples of 1/16; but if the point must be outside, one
+/// weight is beyond its limit by 2^-10 to 2^-52.
 std::pair<double, double> weights(Random& random, Kind kind, Where where) {
   const bool is_edges = !has_triangle(kind);
   const int first = random.integer(1, is_edges ? 15 : 14);
@@ -274,9 +274,9 @@ Frame frame_of(Random& random, std::size_t offset) {
   return {place, random.one_in(2) ? small(random) : Vector(Vector::Zero())};
 }
 
-/// The largest number of binary places that the time of contact may have so that coordinates are exact. Every
-/// coordinate is a sum of products of a vector's component, a time and a weight. A weight has four binary
-/// places.
+/// The largest number of binary places that the time of contact may have if all coordinates are to be exact.
+/// Every coordinate is a sum of products of a vector's component, a time and a weight. A weight has four
+/// binary places.
 int bits_for_time(const Draft& draft, const Frame& frame) {
   int lowest = 0;
   double sum = 0;

@@ -1,5 +1,5 @@
-// Queries of a vertex and an edge, or of two vertices, that the other families rarely have. x is the family's
-// parameter, h the separation.
+// Queries of a vertex and an edge, or of two vertices, that the other families rarely make. x is the family's
+// parameter, and h is the separation.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -31,8 +31,8 @@ Query placed_beside(Random& random, Kind kind, const Path& to_vertex, const Path
   return query;
 }
 
-/// Let d be the query's smallest distance. The query gets a separation from (1 - 2^x) d to (1 + 2^x) d; if d
-/// is 0, the separation is 2^x.
+/// Returns the query with a separation that is random, from (1 - 2^x) d to (1 + 2^x) d, where d is the
+/// query's smallest distance. If d is 0, the separation is 2^x.
 Query with_separation_beside(Random& random, const Query& query, double x) {
   const double off = random.uniform(-1, 1) * exp2_of(x);
   const double d = minimum_distance(query, 0).hi;
@@ -47,8 +47,8 @@ struct Motion {
 constexpr double rounded_to = 1e-6;
 /// Motions that a random search found. The paper's Algorithm 2 (vertex_edge.hpp) tests several candidate
 /// times. If h is at most 1.09 times the smallest distance (1.22 times for the first four motions), the
-/// vertex is within h of the edge only at the candidate times of case 2, at which a quadratic piece of the
-/// algorithm's function F_0ij has its minimum.
+/// vertex is within h of the edge only at the candidate times of case 2. These are the times at which a
+/// quadratic piece of the algorithm's function F_0ij has its minimum.
 const std::array<Motion, 5> at_minima{{
     {{-0.115823, 0.480718, -0.471951},
      {0.608612, -0.114713, 1.656110},
@@ -72,9 +72,9 @@ const std::array<Motion, 5> at_minima{{
      {2.345900, 1.582981, 0.115942}},
 }};
 
-/// One of the motions `at_minima`, changed slightly. The axes are permuted and reversed at random; in half of
-/// the queries, start and end are exchanged. The separation h differs from the smallest distance by at most
-/// 2^x times the smallest distance.
+/// One of the motions `at_minima`, changed slightly. The axes are permuted and reversed at random. In half of
+/// the queries, the positions at t = 0 and at t = 1 are exchanged. The separation h differs from the smallest
+/// distance by at most 2^x times the smallest distance.
 Query at_minimum(Random& random, Kind kind, double x) {
   const Motion& motion = one_of(random, at_minima);
   const int turn = random.integer(0, 2);
@@ -99,9 +99,9 @@ Query at_minimum(Random& random, Kind kind, double x) {
   return rescaled(random, with_separation_beside(random, placed_beside(random, kind, to_vertex, edge), x));
 }
 
-/// A vertex drifts slowly through an edge that grows; in one of four queries, it passes beside the edge, and
-/// in one of four, it meets the edge's end x1. The three components of the cross product of x0 - x1 and x2 -
-/// x1 have nearly equal magnitudes and are small at all times; h is far smaller than the edge.
+/// A vertex drifts slowly through an edge that grows. In one of four queries, the vertex passes beside the
+/// edge; in one of four, it meets the edge's end x1. The three components of the cross product of x0 - x1 and
+/// x2 - x1 have nearly equal magnitudes and are small at all times; h is far smaller than the edge.
 Query drifting(Random& random, Kind kind, double x) {
   const double x_of_normal = random.one_in(2) ? 1 : -1;
   const double y_of_normal = random.one_in(2) ? 1 : -1;
@@ -134,9 +134,9 @@ Query along_the_line(Random& random, Kind kind, double x) {
   return rescaled(random, with_separation_beside(random, query, x));
 }
 
-/// At some time, the edge shrinks to a point, and the vertex is then at its smallest distance from the edge.
-/// Relative to the middle of the edge, the vertex moves at right angles to the edge and to the line from this
-/// middle to the vertex at that time.
+/// At a time t, the edge is a single point, and the distance from the vertex to the edge is smallest.
+/// Relative to the middle of the edge, the vertex moves in a direction that is perpendicular to the edge, and
+/// to the vector from the middle to the vertex at t.
 Query shrinking(Random& random, Kind kind, double x) {
   const double t = random.integer(1, 15) / 16.0;
   const Vector direction = random.vector(8);

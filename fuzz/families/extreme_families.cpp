@@ -71,7 +71,7 @@ Query scale(Random& random, Kind kind, double x) {
 Query overflow(Random& random, Kind kind) {
   Query query{.kind = kind};
   const auto first_vertices = static_cast<std::size_t>(split(kind));
-  // The only axis along which coordinates are huge; if 3 or more, they may be huge along any axis.
+  // The only axis along which coordinates are huge. If `only` is 3 or more, they may be huge along any axis.
   const int only = random.integer(0, 5);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool huge = only < 3 ? static_cast<int>(axis) == only : random.one_in(2);
@@ -88,8 +88,9 @@ Query overflow(Random& random, Kind kind) {
   return finished(random, query);
 }
 
-/// Each vertex and each axis has its own exponent. The primitives touch at the origin, so they still touch
-/// after all coordinates of a vertex, or all coordinates along an axis, are multiplied by a number.
+/// Each vertex and each axis has its own power of two, by which coordinates are multiplied. The primitives
+/// touch at the origin. So they still touch after all coordinates of a vertex, or all coordinates along an
+/// axis, have been multiplied by a positive number.
 Query mixed_scale(Random& random, Kind kind, double x) {
   ContactSampler sampler(random);
   Contact contact = sampler.contact(kind, sampler.speed());
@@ -174,10 +175,10 @@ Query needle(Random& random, Kind kind, double x) {
   return finished(random, query);
 }
 
-/// Both primitives turn as one rigid body between t = 0 and t = 1, except that each vertex moves in a
-/// straight line. So for every time, one affine map takes both primitives from their places at t = 0 to their
-/// places at that time. Under this motion, points that coincide stay together. Only the relative motion
-/// `apart` separates the primitives.
+/// One rotation takes both primitives from their places at t = 0 to their places at t = 1; between these
+/// times, each vertex moves in a straight line. So for every time, one affine map takes both primitives from
+/// their places at t = 0 to their places at that time. In this motion, points that coincide once coincide at
+/// all times. Then a relative motion, `apart`, is added, and only this motion separates the primitives.
 Query rigid(Random& random, Kind kind, double x) {
   const Eigen::Matrix3d turn = rotation(random.vector(1), power_of_ten(x));
   const auto turned = [&](const Vector& v) { return Path{v, turn * v}; };

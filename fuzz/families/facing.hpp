@@ -1,4 +1,5 @@
-// Primitives on opposite sides of a plane or of a slab, with chosen closest features.
+// Primitives on opposite sides of a plane or of a slab. The caller chooses which of their features are
+// closest.
 #pragma once
 
 #include <cstdint>
@@ -17,27 +18,29 @@ enum class Closest : std::uint8_t {
   parallel_edges,  ///< the interiors of both edges, which are parallel
 };
 
-/// Draws closest features that queries of this kind can have.
+/// Draws one of those values of Closest that a query of this kind can have.
 Closest draw_closest(Random& random, Kind kind);
 
 /// A vector in the plane z = 0 whose components are integers from -4 to 4.
 Vector3<double> vector_in_plane(Random& random);
 
-/// Whether a side is part of the closest features: side q if `is_side_q`, otherwise side r (contacts.hpp).
+/// Whether a side (contacts.hpp) is part of the closest features. The side is q if `is_side_q`, otherwise r.
 bool is_closest(Kind kind, Closest closest, bool is_side_q);
 
-/// A contact of primitives on opposite sides of the plane z = 0, up to a common translation. During the whole
-/// step, the closest features lie in the plane, the rest of the first primitive is above it, and the rest of
-/// the second primitive is below it. The x and y components of sides are integers from -4 to 4; the z
-/// component is 0 for a side in the plane, else plus or minus `level` times an integer from 1 to 4. A point
-/// of contact has a positive multiple of 1/8 as the weight of each side that is part of the closest features,
-/// and 0 as the weight of any other side. In half of the contacts, sides keep their length and direction.
+/// A contact of primitives on opposite sides of the plane z = 0, up to a translation that both primitives
+/// share. During the whole step, the closest features lie in the plane, the rest of the first primitive is
+/// above the plane, and the rest of the second primitive is below it. The x and y components of the sides are
+/// integers from -4 to 4. The z component of a side is 0 if the side lies in the plane; otherwise, it is plus
+/// or minus `level` times an integer from 1 to 4. The weight α (for side q) or β (for side r) of the point of
+/// contact is a positive multiple of 1/8 if the side is part of the closest features, and 0 otherwise. In
+/// half of the contacts, the sides keep their length and direction.
 Contact facing_contact(Random& random, Kind kind, Closest closest, double time, double level = 1);
 
 /// The query in which the vector from the second primitive's point of contact to the first primitive's point
 /// of contact is (0, 0, gap) at the time of `contact`, and changes with velocity w. At that time, the
-/// distance of the primitives is `gap`; at any time t, it is at least gap + (t - time) w[2]. If the numbers
-/// have few bits, the coordinates of the query are exact, and so are these distances.
+/// distance of the primitives is `gap`; at any time t, their distance is at least gap + (t - time) w[2]. If
+/// the numbers have few bits, the coordinates of the query are computed without rounding, so these distances
+/// are exact.
 Query facing(Kind kind, const Contact& contact, const Vector3<double>& w, double gap);
 
 }  // namespace nearmiss

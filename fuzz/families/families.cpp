@@ -114,7 +114,7 @@ ChooseSeparation parse_family_separation(std::string_view text, std::string_view
 
 namespace {
 
-/// The family with change(random, query) as the last step of making a query.
+/// The family that makes the same queries, and then calls change(random, query) for each query.
 template <class Change>
 Family with_last_step(Family family, const Change& change) {
   const auto changed = [&](const auto& make) {
@@ -243,7 +243,8 @@ Family find_family(std::string_view name, std::span<const Family> known) {
 
 namespace {
 
-/// A hash of the name (FNV-1a), so a family's queries stay the same when the list of families changes.
+/// A hash of the family's name (FNV-1a). So the queries of a family stay the same when the list of families
+/// changes.
 std::uint64_t stream_of(const Family& family) {
   std::uint64_t stream = 0xcbf29ce484222325;
   for (const char c : FamilyName(family.name).base)

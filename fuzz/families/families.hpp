@@ -21,24 +21,25 @@ struct Parameter {
   double lo, hi;
   bool whole = false;  ///< whether x must be a whole number
   std::function<Query(Random&, Kind, double)> make;
-  std::string factor{};  ///< if set, reports count the queries with each whole x, under the name FACTOR=2^x
+  std::string factor{};  ///< if set, reports count the queries for each whole x, under the name FACTOR=2^x
 };
 
 struct Family {
-  std::string name;  ///< NAME, or NAME@VALUE if the parameter has a fixed value
+  std::string name;  ///< NAME; or NAME@VALUE, if the parameter is fixed at VALUE
   std::string about;
   bool planted = false;  ///< whether every query is a collision by construction
   std::function<Query(Random&, Kind)> make;
   std::optional<Parameter> parameter{};         ///< each query draws its own x, uniformly
   std::uint64_t block_cases = 25;               ///< queries in the first round of a campaign
-  bool timed = true;                            ///< whether trials time the subjects
+  bool timed = true;                            ///< whether trials measure the subjects' run times
   bool compare_all = false;                     ///< whether every method of the oracle decides each query
   bool has_separation = false;                  ///< whether the queries have a separation h > 0
   std::array<Kind, 2> kinds = kinds_of_meshes;  ///< the kind of queries with even indices, then with odd ones
   std::optional<Kind> only{};                   ///< if set, campaigns ask only the queries of this kind
 
-  /// Draws the values of a query's factors (properties that vary from query to query), as texts
-  /// "FACTOR=VALUE". `make` starts with the same draws. Null if the family has no factors.
+  /// Draws the values of a query's factors (properties that vary from query to query), and returns them as
+  /// texts "FACTOR=VALUE". `make` starts by drawing the same values. This function is null if the family has
+  /// no factors.
   std::function<std::vector<std::string>(Random&)> factors{};
 };
 
@@ -46,20 +47,21 @@ Family with_parameter(std::string name, std::string about, Parameter parameter);
 
 Family with_collisions(Family family);
 
-/// The family NAME@VALUE. Each of its queries is the query that the family NAME makes if NAME draws VALUE as
-/// its parameter. So queries with the same index and different VALUEs differ only by the parameter. Throws
-/// Error if the family has no parameter, or if its parameter cannot have this value.
+/// The family NAME@VALUE. Each of its queries is the query that the family NAME would make if NAME drew VALUE
+/// as the parameter. So two queries with the same seed and index, but different VALUEs, differ only by the
+/// parameter. Throws Error if the family has no parameter, or if the parameter cannot have this value.
 Family at_value(const Family& family, double value);
 
 /// The families NAME@VALUE for `steps` evenly spaced values of the family's parameter, from the lowest to the
-/// highest. If the parameter is whole and has fewer values than `steps`, each value occurs once. Throws Error
-/// if the family has no parameter.
+/// highest. If x must be a whole number and has fewer than `steps` possible values, each value occurs once.
+/// Throws Error if the family has no parameter.
 std::vector<Family> sweep(const Family& family, int steps);
 
-/// The text that a user gives in place of a number so that each query draws its own separation.
+/// The text that a user gives in place of a separation, so that each query draws its own separation.
 inline constexpr std::string_view drawn_separation = "drawn";
 
-/// A function that returns the separation of a query. It takes random numbers only if separations are drawn.
+/// A function that returns the separation of a query. It draws random numbers only if each query is to have a
+/// random separation.
 using ChooseSeparation = std::function<double(Random&, const Query&)>;
 
 /// Parses the separation of all queries: a positive number, or `drawn`. A drawn separation is between 1e-6
@@ -67,13 +69,13 @@ using ChooseSeparation = std::function<double(Random&, const Query&)>;
 /// with `where` for any other text.
 ChooseSeparation parse_family_separation(std::string_view text, std::string_view where);
 
-/// The family NAME~SEPARATION: the queries of NAME with this separation. If the separation is `drawn`, each
-/// query draws its separation after all its other numbers. Throws Error if parse_family_separation() refuses
-/// the text, or if the family has separations of its own.
+/// The family NAME~SEPARATION: the queries of NAME, with this separation. If the separation is `drawn`, the
+/// separation of each query is drawn after all other numbers of the query. Throws Error if
+/// parse_family_separation() refuses the text, or if the family has separations of its own.
 Family with_separation(const Family& family, std::string_view separation);
 
-/// The families of vertex-triangle and edge-edge queries that ask whether the primitives touch, in the order
-/// in which lists and campaigns show them. The families of extreme queries come last.
+/// The families of vertex-triangle and edge-edge queries that ask whether the primitives touch. They are in
+/// the order in which lists and campaigns show them; the families of extreme queries come last.
 std::span<const Family> families();
 
 /// The families of vertex-triangle and edge-edge queries that have separations of their own.
@@ -91,15 +93,15 @@ Family as_asked(const Family& family);
 /// families() and separation_families(): all families of vertex-triangle and edge-edge queries.
 std::span<const Family> mesh_families();
 
-/// Families whose primitives are at rest, for all four kinds. `nearmiss distance` uses them; campaigns do
-/// not.
+/// Families of queries of all four kinds, in which the primitives are at rest. `nearmiss distance` uses them;
+/// campaigns do not.
 std::span<const Family> families_at_rest();
 
 /// All families: mesh_families(), vertex_families() and families_at_rest().
 std::span<const Family> all_families();
 
-/// Finds a family by its name: NAME, NAME@VALUE, or one of these with ~SEPARATION. For an unknown name,
-/// throws an Error that lists the known families.
+/// Finds a family by its name: NAME, NAME@VALUE, NAME~SEPARATION or NAME@VALUE~SEPARATION. For an unknown
+/// NAME, throws an Error that lists the known families.
 Family find_family(std::string_view name, std::span<const Family> known = all_families());
 
 /// The kind of a family's query `index`. Queries with even indices are vertex-triangle (in a family of
@@ -112,16 +114,16 @@ bool has_kind(const Family& family, Kind kind);
 /// Throws an Error that starts with `where` if the family has no queries of this kind.
 void expect_kind(const Family& family, Kind kind, std::string_view where);
 
-/// The kinds about which campaigns ask: Family::only if it is set, otherwise both kinds of the family.
+/// The kinds of queries that campaigns ask: Family::only if it is set, otherwise both kinds of the family.
 inline std::span<const Kind> kinds_asked(const Family& family) {
   return family.only ? std::span(&*family.only, 1) : std::span<const Kind>(family.kinds);
 }
 
-/// The family, changed so that campaigns ask only queries of the given kinds; nothing if it has no such
-/// queries.
+/// The family, changed so that campaigns ask only its queries of the given kinds. Returns nothing if the
+/// family has no such queries.
 std::optional<Family> of_kinds(const Family& family, std::span<const Kind> some);
 
-/// The random numbers from which query number `index` of a family is made.
+/// The stream of random numbers from which query number `index` of a family is made.
 Random random_of(const Family& family, std::uint64_t seed, std::uint64_t index);
 
 /// The value of each factor of query number `index`, for a family with factors (Family::factors).

@@ -86,8 +86,8 @@ Query kilometres(Random& random, Kind kind) {
   return moved(query, random.vector(scene));
 }
 
-// The values of the factors of `metres`. Lengths of edges and sizes of scenes are in metres, motions in
-// lengths of an edge.
+// The values of the factors of `metres`. Lengths of edges and sizes of scenes are in metres. The length of a
+// motion is in multiples of an edge length.
 constexpr std::array edges{1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array steps{1e-4, 1e-3, 1e-2, 1e-1, 1.0};
 constexpr std::array scenes{1.0, 10.0, 100.0};

@@ -1,5 +1,5 @@
 // Families of primitives that touch exactly: at t = 0 or t = 1, just after t = 0, at rest, or at two times. x
-// is the family's parameter, F the coplanarity cubic.
+// is the family's parameter, and F is the coplanarity cubic.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,10 +20,10 @@ Vector wide_vector(Random& random, int bits) {
   return v.array().floor();
 }
 
-/// Primitives at rest that touch exactly; half of the queries touch at a vertex. At a vertex, rounding errors
-/// matter most: both weights are at the ends of their ranges, so if an error moves the vertex away, no
-/// neighbouring point touches in its place. Coordinates are multiples of 1/16 below 2^48, so they use nearly
-/// all bits of a double.
+/// Primitives at rest that touch exactly; half of the queries touch at a vertex. Rounding errors matter most
+/// at a vertex: both weights are at the ends of their ranges, so if an error moves the vertex away, no
+/// neighbouring point of the primitive touches in its place. Coordinates are multiples of 1/16 below 2^48, so
+/// they use nearly all bits of a double.
 Query touching_at_rest(Random& random, Kind kind) {
   Contact contact = integer_contact(random, kind);
   contact.base = still(wide_vector(random, 46));
@@ -36,11 +36,11 @@ Query touching_at_rest(Random& random, Kind kind) {
   return meet(kind, contact, Vector::Zero());
 }
 
-/// Primitives of size 10^x that touch exactly at t = 1. They start up to 1,024 times their size away from
-/// their places at t = 1, and change their shape on the way. The difference between the positions at t = 0
-/// and at t = 1 has more bits than a double. A CCD that computes positions at t = 1 from this difference
-/// misses the contact unless it allows for rounding errors. In three queries of four, both primitives are
-/// flat along an axis at all times, like a garment that falls onto a floor.
+/// Primitives of size 10^x that touch exactly at t = 1. At t = 0, they are up to about 1,024 times their size
+/// away from their places at t = 1; they change their shape on the way. The difference between a vertex's
+/// positions at t = 0 and at t = 1 has more bits than a double. A CCD that computes positions at t = 1 from
+/// this difference misses the contact unless it allows for rounding errors. In three queries of four, both
+/// primitives are flat along an axis at all times, like a garment that falls onto a floor.
 Query far_end(Random& random, Kind kind, double x) {
   const double size = power_of_ten(x);
   Query query = touching_at_rest(random, kind);
@@ -71,8 +71,8 @@ Query far_start(Random& random, Kind kind, double x) {
 
 /// The second primitive always contains the origin. The first primitive's point of contact moves from -2^x w
 /// to w, and is at the origin at t = 2^x / (1 + 2^x). If w is in the plane of the primitives, they may touch
-/// earlier. A moving edge has no extent along the axis along which it moves, so that adding a tiny number to
-/// its coordinates is exact.
+/// earlier. If the first primitive is an edge, it has no extent along the axis along which it moves, so that
+/// adding a tiny number to its coordinates is exact.
 Query first_moment(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
   const Vector axis = Vector::Unit(random.integer(0, 2));
@@ -101,9 +101,9 @@ Query first_moment(Random& random, Kind kind, double x) {
 
 // --- no motion and no size ------------------------------------------------------------------------------
 
-/// All vertices of a primitive are one point at rest. Both primitives are the same point, or one coordinate
-/// of the second primitive differs from that of the first by up to four ulps. A CCD's error bound is 0 here
-/// if it is proportional to sizes or motions.
+/// All vertices of a primitive are one point at rest. Either both primitives are the same point, or one
+/// coordinate of the second primitive's point differs from that of the first primitive's point by up to four
+/// ulps. In these queries, an error bound that is proportional to sizes or motions is 0.
 Query one_point(Random& random, Kind kind) {
   const double size = power_of_ten(random.uniform(-3, 3));
   const Vector point = random.vector(size);
@@ -123,9 +123,9 @@ Query one_point(Random& random, Kind kind) {
 
 // --- contact twice --------------------------------------------------------------------------------------
 
-/// Two vertices of one primitive pass the same vertex of the other primitive at two times: relative to that
-/// vertex, they are at (t - i / 16) a and (t - j / 16) b. F is (t - i / 16) (t - j / 16) det(a, b, c(t)),
-/// where c(t) is the fourth vertex relative to that vertex. In one query of four, all vertices are in one
+/// Two vertices of one primitive pass through a vertex v of the other primitive, each at its own time:
+/// relative to v, they are at (t - i / 16) a and (t - j / 16) b. F is (t - i / 16) (t - j / 16) det(a, b,
+/// c(t)), where c(t) is the vector from v to the fourth vertex. In one query of four, all vertices are in one
 /// plane, and F is zero.
 Query touch_twice(Random& random, Kind kind) {
   const int size = 1 << random.integer(1, 16);

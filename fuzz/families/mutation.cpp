@@ -95,7 +95,7 @@ Query exponents(Random& random, const Query& query) {
   return result;
 }
 
-/// Replaces some coordinates with other coordinates of the query, or with the negatives of those.
+/// Replaces some coordinates with other coordinates of the query, or with the negatives of such coordinates.
 Query coordinate_copied(Random& random, const Query& query) {
   Query result = query;
   for (int count = random.integer(1, 3); count > 0; --count) {
@@ -107,8 +107,8 @@ Query coordinate_copied(Random& random, const Query& query) {
   return result;
 }
 
-/// Rounds all coordinates, or those of one position, to multiples of a power of two. The multipliers have at
-/// most 6 bits or, in one of four queries, at most 30 bits.
+/// Rounds all coordinates, or those of one position, to integer multiples of a power of two. The integers
+/// have at most 6 bits or, in one of four queries, at most 30 bits.
 Query rounded(Random& random, const Query& query) {
   double largest = 0;
   for (const double c : query.x) largest = std::max(largest, std::abs(c));
@@ -174,7 +174,7 @@ Query coplanar_always(Random& random, const Query& query) {
 
 // --- primitives and motion -----------------------------------------------------------------------------
 
-/// Multiplies the distance between two vertices by a factor below 1, often 0.
+/// Multiplies the distance between two vertices by a factor below 1, often by 0.
 Query edge_shrunk(Random& random, const Query& query) {
   const int fixed = random.integer(0, 3);
   const int moving = (fixed + random.integer(1, 3)) % 4;

@@ -15,8 +15,8 @@ namespace {
 
 using certified::DoubleWord;
 
-/// The shares of the eight positions. The vector between the two points of a Place is the sum of all
-/// positions, each multiplied by its share.
+/// The vector between the two points of a Place is the sum of the eight positions, each multiplied by a
+/// number, its share. Returns these shares.
 std::array<DoubleWord, 8> shares(Kind kind, const Place& place) {
   const DoubleWord one = 1;
   const DoubleWord alpha = place.alpha;

@@ -58,8 +58,8 @@ Query grazing(Random& random, Kind kind) {
 
 // --- nearly degenerate contact, in floating point ---------------------------------------------------
 
-/// Primitives of size 1 that are aimed at each other. In half of the queries, the place of contact may be
-/// outside the primitives.
+/// Primitives of size 1 that are aimed at each other. In half of the contacts, the place may be slightly
+/// outside the primitives, and the time slightly outside the step.
 Contact aimed_contact(Random& random, Kind kind) {
   const auto path = [&](double size, double speed) {
     const Vector start = random.vector(size);
@@ -112,8 +112,8 @@ Query sliver(Random& random, Kind kind) {
 
 // --- F is zero identically --------------------------------------------------------------------------
 
-/// The vertices stay exactly in one plane: every position is a P + b Q + O with integers a and b. All numbers
-/// are integers below 2^31.
+/// The vertices stay exactly in one plane: every position is a P + b Q + O with integers a and b. All
+/// coordinates are integers below 2^31.
 Query planar(Random& random, Kind kind) {
   const Vector P = random.integer_vector(8);
   const Vector Q = random.integer_vector(8);

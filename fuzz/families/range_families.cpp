@@ -1,9 +1,10 @@
-// Families whose products of coordinates are at the ends of the range of double. No coordinate overflows or
-// underflows, but products of two, three, four or six differences of coordinates, or sums of such products,
-// overflow or underflow. The weights come from a vector W whose components are sums of products of two
-// differences. F, the coplanarity cubic, is a sum of products of three differences. The square of W is a sum
-// of products of four differences, and the square of F is a sum of products of six differences. A query is
-// first made of small numbers; then its vertices and axes are scaled by powers of two, which is exact.
+// Families in which products of coordinates are at the ends of the range of double. No coordinate overflows
+// or underflows, but products of two, three, four or six differences of coordinates, or sums of such
+// products, overflow or underflow. A CCD computes the weights of a point of contact from a vector W, whose
+// components are sums of products of two differences. F, the coplanarity cubic, is a sum of products of three
+// differences. The square of W is a sum of products of four differences, and the square of F is a sum of
+// products of six differences. A query is first made of small numbers; then its vertices and axes are scaled
+// by powers of two, which is exact.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,7 +42,7 @@ Draft touching(Random& random, Kind kind) {
 }
 
 /// Exact contact of small integers, at the origin and inside the step. Speeds are as large as the sizes of
-/// the primitives, so the primitives are apart at the other roots of F.
+/// the primitives, so the primitives are usually apart at the other roots of F.
 Draft small_touching(Random& random, Kind kind) {
   const auto path = [&] {
     const Vector start = random.integer_vector(2);
@@ -126,7 +127,8 @@ Draft any_draft(Random& random, Kind kind) {
 
 // --- sizes ------------------------------------------------------------------------------------------
 
-/// For v = 1, 2, 3 and each axis, the magnitude of x_v - x_0 at t = 0 or at t = 1, whichever is larger.
+/// For v = 1, 2, 3 and each axis, the magnitude of the component of x_v - x_0 along the axis, at t = 0 or at
+/// t = 1, whichever is larger.
 using Differences = std::array<std::array<double, 3>, 3>;
 
 Differences differences(const Query& query) {
@@ -144,8 +146,8 @@ Differences differences(const Query& query) {
 constexpr std::size_t none = 3;  ///< stands for no axis
 
 /// The sum of the magnitudes of the products in F. Each product has three factors: a difference along each
-/// axis. If an axis is left out, returns the sum of the magnitudes of the products in W's component along
-/// that axis; each of these products has two factors.
+/// axis. If an axis is left out, returns the sum for the products in W's component along that axis instead;
+/// each of these products has two factors.
 double sum_of_products(const Query& query, std::size_t left_out) {
   const Differences d = differences(query);
   double sum = 0;
@@ -162,9 +164,9 @@ void scale_axis(Query& query, std::size_t axis, int exponent) {
   for (std::size_t i = axis; i < 24; i += 3) query.x[i] = std::ldexp(query.x[i], exponent);
 }
 
-/// Multiplies the coordinates along an axis by the largest multiple of 1/8 that keeps the exponent of the sum
-/// of products. Then the sum is near the top of its binade; if its exponent is 1023, two or three times the
-/// sum overflows.
+/// Multiplies the coordinates along an axis by the largest multiple of 1/8 that does not change the exponent
+/// of the sum of products. Then the sum is near the top of its binade; if its exponent is 1023, two or three
+/// times the sum overflows.
 void fill_binade(Query& query, std::size_t axis, double sum) {
   const double mantissa = std::ldexp(sum, -std::ilogb(sum));
   const double factor = (std::ceil(16 / mantissa) - 1) / 8;
@@ -193,8 +195,8 @@ void scale_products(Random& random, Query& query, std::size_t left_out, int x, i
   }
 }
 
-/// Makes the coordinates of two vertices up to 2^512 times larger or smaller than those of the others, or
-/// scales each vertex by its own power of two.
+/// Makes the coordinates of two vertices up to 2^512 times larger or smaller than those of the other two
+/// vertices, or multiplies the coordinates of each vertex by a power of two of its own.
 void scale_vertices(Random& random, Query& query) {
   const int half = random.integer(-256, 256);
   std::array<int, 4> exponents{-half, -half, half, half};

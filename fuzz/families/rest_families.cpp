@@ -10,9 +10,9 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// Primitives of about size 1, and a point on each primitive, often on its border. The vector `gap` goes from
-/// the second primitive's point to the first primitive's point. In half of the queries, `gap` is parallel to
-/// q × r.
+/// Two primitives of about size 1, and a point on each primitive, often on the primitive's border. The vector
+/// `gap` goes from the second primitive's point to the first primitive's point. In half of the queries, `gap`
+/// is parallel to q × r.
 struct Draft {
   Contact contact;
   Vector gap;

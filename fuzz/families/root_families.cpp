@@ -12,7 +12,8 @@ namespace {
 
 using Vector = Vector3<double>;
 
-/// An exact contact at t = 0 or t = 1; then one coordinate at that time is changed by x ulps.
+/// Makes a query in which the primitives touch exactly at t = 0 or t = 1. Then moves one coordinate at that
+/// time by x ulps.
 Query end_contact(Random& random, Kind kind, double x) {
   Contact contact = integer_contact(random, kind);
   contact.time = random.integer(0, 1);
@@ -23,13 +24,13 @@ Query end_contact(Random& random, Kind kind, double x) {
   return query;
 }
 
-/// A point whose weights change at the rates α' and β' follows a curve. The first primitive moves along a
-/// tangent of this curve, so F has a double root. The curve departs from its tangent by (β' r' + s α' q') (t
-/// - time)² with s = alpha_sign(kind). Let 2 h be the time between the two planned roots. If the first
-/// primitive is shifted by the value of this vector at t = time ± h, it meets the curve at these two times;
-/// if it is shifted the opposite way, it never meets the curve. In half of the queries, both sides lie in a
-/// coordinate plane at the contact time and leave it along its normal, so that even the smallest shift is
-/// exact.
+/// Let s = alpha_sign(kind). If the weights α and β change at constant rates α' and β', the vector β r + s α
+/// q follows a curve. At time t, this curve is away from its tangent by d(t) = (β' r' + s α' q') (t - time)².
+/// The first primitive moves along the tangent, so F has a double root. Let 2 h be the time between the two
+/// planned roots. If the first primitive is shifted by d(time + h), which is also d(time - h), it meets the
+/// curve at these two times. If it is shifted the opposite way, it never meets the curve. In half of the
+/// queries, both sides lie in a coordinate plane at the time of contact, and leave this plane along its
+/// normal, so that even the smallest shift is exact.
 Query even_roots(Random& random, Kind kind, double x) {
   const double h = random.one_in(8) ? 0 : power_of_ten(x) / 2;
   ContactSampler sampler(random);
@@ -57,11 +58,11 @@ Query even_roots(Random& random, Kind kind, double x) {
   return finished(random, with_first_moved(query, shift));
 }
 
-/// F(t) = det(M0 + s M1) with s = t - time. The columns of M0 + s M1 are x0 - base, q and r. With M1 = G C
-/// and M0 = G J C for a nilpotent J, F(t) is det(G) det(C) det(J + s) = det(G) det(C) s³. The primitives
-/// touch if M0 maps the vector (1, -alpha_sign(kind) α, -β) to 0. M0 does, because all rows of C except the
-/// first are orthogonal to this vector, and J C does not contain the first row of C. Finally, q and r are
-/// moved slightly, and the contact moves with them.
+/// F(t) = det(M0 + s M1) with s = t - time. The columns of M0 + s M1 are x0 - base, q and r. Let M1 = G C and
+/// M0 = G J C, where J is nilpotent. Then F(t) is det(G) det(C) det(J + s I) = det(G) det(C) s³. The
+/// primitives touch if M0 maps the vector (1, -alpha_sign(kind) α, -β) to 0. M0 does so, because all rows of
+/// C except the first are orthogonal to this vector, and the rows of J C are multiples of the other rows of
+/// C. Finally, q and r are changed slightly, and the point of contact moves with them.
 Query triple_root(Random& random, Kind kind, double x) {
   const double off = random.one_in(8) ? 0 : power_of_ten(x);
   ContactSampler sampler(random);

@@ -1,6 +1,6 @@
-// Exact contact whose time is hard to find: roots of the coplanarity cubic F that are close together; a root
-// at which the primitives only touch; an easily missed contact before an obvious contact; and slow motion. x
-// is the family's parameter.
+// Exact contact at a time that is hard to find. The coplanarity cubic F has roots close together; or the
+// primitives touch at one time only; or a contact that is easily missed precedes an obvious contact; or the
+// primitives move slowly. x is the family's parameter.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,9 +24,9 @@ struct Factor {
   static Factor constant() { return {1, 1}; }
 };
 
-/// A point that may be outside the primitives, given by its weights α / whole and β / whole (α and β as in
-/// Contact). If `whole` is 0, no such point exists. Then s α q = -β r with s = alpha_sign(kind) at the root
-/// of the factor, so the sides are parallel at that time.
+/// A point with the weights α / whole and β / whole, in the sense of Contact. The point may be outside the
+/// primitives. If `whole` is 0, there is no such point. Instead, s α q + β r = 0 at the root of the factor,
+/// with s = alpha_sign(kind), so the sides are parallel at that time.
 struct Weights {
   int whole, alpha, beta;
 
@@ -41,7 +41,7 @@ struct Weights {
 
 struct PlannedRoot {
   Factor factor;
-  Vector direction;  ///< the direction in which the points with these weights pass each other
+  Vector direction;  ///< the direction in which the two points with these weights pass each other
   Weights weights;
 };
 
@@ -55,9 +55,9 @@ bool are_independent(Kind kind, const std::array<PlannedRoot, 3>& roots) {
          determinant(a.weights.column(kind), b.weights.column(kind), c.weights.column(kind)) != 0;
 }
 
-/// The vertices, at t = 0 or at t = 1, of a query in which F is a multiple of the product of the factors. At
-/// the root of a factor, the two points with the weights of this root coincide, so the primitives touch if
-/// these weights are inside.
+/// The positions of the vertices, at t = 0 or at t = 1, in a query whose F is a multiple of the product of
+/// the three factors. At the root of a factor, the two points that have the weights of this root coincide. So
+/// the primitives touch then if the points are inside the primitives.
 ///
 /// The matrix with the columns p = x0 - base, q and r is M = U L adj(K). U has the directions as columns, L
 /// has the factors on its diagonal, and K has the columns (whole, -s α, -β) with s = alpha_sign(kind). So M K
@@ -119,8 +119,8 @@ Query with_drawn_roots(Random& random, Kind kind, const Path& base, const Draw& 
   return rescaled(random, query);
 }
 
-/// Two or three roots of F; neighbouring roots are 1 to 3 times 2^x apart. At one root or more, the points
-/// that coincide are inside the primitives; at the other roots, they are outside.
+/// F has two or three roots; neighbouring roots are 1 to 3 times 2^x apart. At one or more of the roots, the
+/// points that coincide are inside the primitives; at the other roots, they are outside.
 Query close_roots(Random& random, Kind kind, double x) {
   const double gap = power_of_two(x);
   const bool has_third = !random.one_in(3);
@@ -169,8 +169,8 @@ Query border_first(Random& random, Kind kind, double x) {
 }
 
 /// Contact at t = 0, or at t = 2^x / (1 + 2^x); then the primitives separate, and touch again later. At the
-/// first contact, the points of contact pass each other along an axis along which nothing else moves, so that
-/// the tiny numbers are exact.
+/// first contact, the points of contact pass each other along a coordinate axis. Nothing else moves along
+/// this axis, so that the tiny numbers are exact.
 Query return_later(Random& random, Kind kind, double x) {
   const Factor first{random.one_in(2) ? 0 : -power_of_two(x), 1};
   const double second = sixteenths(random, 4, 16);
@@ -206,9 +206,10 @@ struct Graze {
   Vector inward;
 };
 
-/// The sides q and r lie in the plane z = 0 at the contact, and leave it with velocities q' and r'. The point
-/// of contact moves as if the weights changed at rates α' and β'. If the first primitive is moved by δ along
-/// z, F is N_z (δ - (β' r' + s α' q') (t - time)²) with N = q × r and s = alpha_sign(kind).
+/// At the time of contact, the sides q and r lie in the plane z = 0. They leave this plane along z, with
+/// velocities q' and r'. The first primitive moves as if its point of contact slid over the second primitive
+/// with weights that change at the rates α' and β'. Let N = q × r, s = alpha_sign(kind) and c = β' r' + s α'
+/// q'. If the first primitive is moved by δ along z, F is N_z (δ - c (t - time)²).
 Graze graze_face(Random& random, Kind kind, double time) {
   for (;;) {
     const Vector q = vector_in_plane(random);
@@ -231,11 +232,11 @@ Graze graze_face(Random& random, Kind kind, double time) {
   }
 }
 
-/// A vertex and an edge touch in the plane z = 0, in which everything moves. The edge turns about the point
-/// of contact, from the direction of x towards y, and the vertex passes this point along x, on one side of
-/// the edge. The fourth vertex is placed so that the primitives are apart at all other times: it is the
-/// triangle's third vertex (vertex-triangle), or the other end of the edge that the touching vertex belongs
-/// to (edge-edge).
+/// A vertex and an edge touch in the plane z = 0, in which everything moves. At the contact, the edge is
+/// parallel to the x axis. The edge turns about the point of contact, and the vertex passes this point along
+/// x, so it stays on one side of the edge. The fourth vertex is placed so that the primitives are apart at
+/// all other times: it is the triangle's third vertex (vertex-triangle), or the other end of the edge that
+/// the touching vertex belongs to (edge-edge).
 Graze graze_edge(Random& random, Kind kind, double time) {
   const int length = random.integer(1, 4);
   const double turn = random_sign(random) * random.integer(1, 4);
@@ -256,8 +257,8 @@ Graze graze_edge(Random& random, Kind kind, double time) {
   return {contact, speed * Vector::UnitX(), side * Vector::UnitY()};
 }
 
-/// In half of the queries, the primitives touch at one time. The other half are made in the same way, but
-/// then the first primitive is moved by about 2^x, towards the second primitive or away from it.
+/// In half of the queries, the primitives touch at one time only. The other queries are made in the same way,
+/// but then the first primitive is moved by about 2^x, towards the second primitive or away from it.
 Query touch_once(Random& random, Kind kind, double x) {
   const double time = sixteenths(random, 1, 15);
   auto [contact, w, inward] =

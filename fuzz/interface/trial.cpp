@@ -131,8 +131,8 @@ void add_finding(const Finding& finding, Result& result) {
   added.separation = finding.shrunk.separation;
 }
 
-/// The findings in the order of the report's text: the most ordinary class first; within a class, the gravest
-/// failure first.
+/// The findings in the order in which the report's text chooses an example: the most ordinary class comes
+/// first and, within a class, the gravest failure.
 std::vector<Finding> in_order(const Campaign& campaign) {
   std::vector<Finding> findings = campaign.findings();
   std::ranges::stable_sort(findings, {}, [](const Finding& each) {

@@ -18,10 +18,10 @@
 extern "C" {
 #endif
 
-/** The queries and the length of a trial. Comments say what 0 and NULL stand for. */
+/** The queries and the length of a trial. The comments say what 0 and NULL mean. */
 typedef struct {
   size_t size;            /**< sizeof(nearmiss_trial_options) */
-  const char* families;   /**< names with ',' between them (nearmiss fuzz --help); NULL or "": all */
+  const char* families;   /**< names, separated by commas (nearmiss fuzz --help); NULL or "": all */
   const char* separation; /**< h of each query: a positive number, or "drawn"; NULL or "": vt and ee ask
                                about contact, vv and ve have drawn separations */
   const char* check;      /**< the macro that checks the example in a report; NULL: "assert" */
@@ -56,8 +56,8 @@ typedef struct {
   const char*
       certificate;   /**< the proof that the detector is wrong (tools/certificates/README.md); "": none */
   int kind;          /**< NEARMISS_VERTEX_TRIANGLE and so on */
-  double x[24];      /**< coordinates as in nearmiss_subject.h; simplified in the first finding of up to three
-                          ways to fail */
+  double x[24];      /**< coordinates as in nearmiss_subject.h; simplified only in the first finding of each
+                          way to fail, for up to three ways */
   double separation; /**< the separation of the query */
 } nearmiss_trial_finding;
 
@@ -68,7 +68,7 @@ typedef struct {
   nearmiss_trial_counts all;              /**< counters of all kinds */
   nearmiss_trial_counts of_kind[4];       /**< counters of each kind: vt, ee, vv, ve */
   size_t finding_count;                   /**< length of `findings` */
-  const nearmiss_trial_finding* findings; /**< the first few of each way to fail; ordinary ones come first */
+  const nearmiss_trial_finding* findings; /**< the first few of each way to fail, ordinary queries first */
 } nearmiss_trial_result;
 
 /** Puts a detector on trial. The detector's functions get `state` as their first argument; open() and

@@ -50,15 +50,15 @@ namespace nearmiss {
 
 using plugin::Question;
 
-/// A value of TrialOptions::time_sort: the form of the function says what its times mean. A function that
-/// returns std::optional gives estimates of the time of a collision; functions of the other forms give no
-/// times.
+/// A value of TrialOptions::time_sort. It says that the form of the function determines what its times mean.
+/// A function that returns std::optional gives estimates of the time of a collision; functions of the other
+/// forms give no times.
 inline constexpr int of_the_form = -1;
 
 /// The queries of a trial, the length of the trial, and the promises of the CCD.
 struct TrialOptions {
   std::string name = "my_ccd";   ///< if the CCD is a function, its name in the report
-  std::string families = "all";  ///< the names of families, with ',' between them (nearmiss fuzz --help)
+  std::string families = "all";  ///< the names of families, separated by commas (nearmiss fuzz --help)
   std::string separation = {};   ///< h of each query: a positive number, or "drawn"; "": as in trial.h
   /// The kinds of queries: a sum of NEARMISS_VERTEX_TRIANGLE and so on; 0: all kinds that the CCD decides.
   int kinds = 0;
@@ -83,12 +83,12 @@ class TrialReport {
   [[nodiscard]] const nearmiss_trial_counts& counts(Kind kind) const {
     return result_->of_kind[static_cast<std::size_t>(kind)];
   }
-  /// The first few findings of each way to fail; ordinary queries come first.
+  /// The first few findings of each way to fail. Findings of ordinary queries come first.
   [[nodiscard]] std::span<const nearmiss_trial_finding> findings() const& {
     return {result_->findings, result_->finding_count};
   }
   void findings() const&& = delete;  // the span would outlive a temporary report
-  /// At most 15 lines.
+  /// The report: a text of at most 15 lines.
   [[nodiscard]] std::string_view text() const { return result_->text; }
 
   friend std::ostream& operator<<(std::ostream& to, const TrialReport& report) { return to << report.text(); }
@@ -263,7 +263,8 @@ static TrialReport trial(const CCD& ccd, const TrialOptions& options = {}) {  //
     return detail::hold(ccd, options, check);
 }
 
-/// Queries of one kind for the caller's own loops. A row of x has x0 x1 .. at t = 0, then at t = 1.
+/// Queries of one kind for the caller's own loops. Each query has a row in x: the vertices x0, x1 .. at t =
+/// 0, then the same vertices at t = 1.
 struct HardQueries {
   Kind kind;
   std::vector<double> x, separation;

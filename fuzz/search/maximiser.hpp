@@ -26,7 +26,8 @@ class Maximiser {
 
   /// If `touching` is true, the optimisations do not change the gap between the primitives. Step sizes are
   /// drawn between `finest_step` and 0.5. If `moves_vertices` is true, about half of the optimisations move
-  /// vertices instead of the coordinates of SearchPoint::visit(); such moves break contacts.
+  /// vertices instead of the vectors that SearchPoint::visit() visits; after such moves, the primitives may
+  /// not touch any more.
   Maximiser(Random& random, bool touching, double finest_step, Objective objective,
             bool moves_vertices = false)
       : random_(random),
@@ -36,24 +37,24 @@ class Maximiser {
         objective_(std::move(objective)) {}
 
   /// Tries at most search_evaluations points, and returns the point with the largest value of the objective.
-  /// If the objective throws an exception, throws this exception.
+  /// If the objective throws an exception, throws it, too.
   SearchPoint run(const Draw& draw_start);
 
  private:
   [[nodiscard]] bool over() const;
   double show(const SearchPoint& point);
-  /// Optimises from the best point so far or, with `beside`, from a point near it. The size of the first step
-  /// is random.
+  /// Starts an optimisation at the best point so far or, if `beside` is true, at a point near it. The size of
+  /// the first step is random.
   void optimise(bool beside);
-  /// Moves vertices of the best point so far. A step that improves the point is repeated, each time twice as
-  /// long. The size of steps grows after an improvement, and shrinks after a step that does not improve the
-  /// point.
+  /// Moves vertices of the best point so far. If a step improves the point, it is repeated, each time twice
+  /// as long, until it does not improve the point. The size of steps grows after an improvement, and shrinks
+  /// after a step that does not improve the point.
   void move_vertices();
   /// Draws a step: one displacement along some axes, for one or several of the eight positions (four
   /// vertices, at t = 0 and t = 1).
   Displacements draw_step(double size);
-  /// Takes the step if it leads to a point that is better than the best point so far. Returns whether it took
-  /// the step.
+  /// Tries the point that the step reaches from the best point so far. If this point is better, it becomes
+  /// the best point. Returns whether it is better.
   bool gains(const Displacements& step);
   /// The objective in the form that NLopt expects.
   double value_at(const std::vector<double>& x);

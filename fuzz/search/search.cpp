@@ -69,8 +69,8 @@ double reach(const Subject& subject, const Query& query) {
 }
 
 /// The smallest size of primitives in a search. It is smaller than usual if reach() is small. For vv and ve
-/// queries, the size is always the usual one: reach() of such queries is a distance minus the separation h,
-/// and may be small for every subject.
+/// queries, it is always the usual size, because reach() of such queries is a distance minus the separation
+/// h, and may be small for every subject.
 double smallest_for(const Subject& subject, Random random, Kind kind) {
   if (!is_of_meshes(kind)) return usually_smallest;
   const SearchPoint typical = draw_search_point(random, usually_smallest);
@@ -105,8 +105,8 @@ struct Mixture {
   }
 };
 
-/// A search point near `point` whose primitives meet. With `exactly`, it is on a grid, and the primitives
-/// touch exactly. Otherwise, the primitives come within h of each other, up to rounding errors.
+/// A search point near `point` whose primitives meet. If `exactly` is true, the result is on a grid, and its
+/// primitives touch exactly. Otherwise, its primitives come within h of each other, up to rounding errors.
 SearchPoint meeting(const SearchPoint& point, bool exactly, double h) {
   return exactly ? on_grid(point) : with_gap_within(point, h);
 }
@@ -177,8 +177,8 @@ struct GivenTime {
   double time;
   EarliestTime& earliest;
 
-  /// The difference time - t*, from an enclosure of t* with the accuracy `rough_time`. If that enclosure
-  /// contains `time`, t* is enclosed with the accuracy `least` instead.
+  /// The difference time - t*. It is computed from an enclosure of t* with the accuracy `rough_time`. If this
+  /// enclosure contains `time`, an enclosure with the accuracy `least` is used instead.
   [[nodiscard]] double difference() const {
     Enclosure known = earliest.enclosure(rough_time);
     if (known.lo <= time && time <= known.hi) known = earliest.enclosure(least);

@@ -1,5 +1,5 @@
-// The search space of directed search. Each point makes a query from a contact, a gap between the primitives,
-// and displacements of the vertices.
+// The search space of directed search. A point of this space determines a query: by a contact, a gap between
+// the primitives, and displacements of the vertices.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace nearmiss {
 /// How far each vertex is moved, in the order of Query::x.
 using Displacements = std::array<double, 24>;
 
-/// A contact, a gap between the primitives, and displacements that are added last, to the vertices'
-/// positions. The contact's Contact::base is at rest at the origin.
+/// A contact, a gap between the primitives, and displacements, which are added to the vertices' positions in
+/// the end. In the contact, Contact::base is at rest at the origin.
 struct SearchPoint {
   Path q, r;
   Vector3<double> w;      ///< the velocity of the first primitive's point of contact
@@ -31,11 +31,12 @@ struct SearchPoint {
 /// The lower end of the usual range of sizes and speeds.
 inline constexpr double usually_smallest = 1e-5;
 
-/// A log-uniform number from lo to hi, the same with every C library.
+/// A log-uniform number from lo to hi. The number is the same whichever C library is used.
 double search_log_uniform(Random& random, double lo, double hi);
 
-/// Draws primitives with sizes and speeds from `smallest` to 1, without a gap. Some primitives are thin, move
-/// in their plane, or stay near one plane; contact may be on a border or at an end of the step.
+/// Draws a contact of primitives with sizes and speeds from `smallest` to 1, without a gap. Some primitives
+/// are thin, move in their plane, or stay near one plane. The contact may be on the border of a primitive, or
+/// at an end of the step.
 SearchPoint draw_search_point(Random& random, double smallest);
 
 /// Rounds a point to a grid on which contact is exact.
@@ -50,7 +51,7 @@ Contact contact_of(Kind kind, const SearchPoint& point);
 
 Query query_of(Kind kind, const SearchPoint& point, double h);
 
-/// log2 of six ratios, each smaller for harder contacts:
+/// Returns log2 of six ratios. Each ratio is smaller for harder contacts:
 /// - the sine of the angle between the relative motion and the plane of q and r
 /// - the sine of the angle between q and r
 /// - the smallest weight

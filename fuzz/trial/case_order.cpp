@@ -15,8 +15,9 @@ std::uint64_t cases_of_first_round(const CampaignPlan& plan) {
   return sum;
 }
 
-/// Divides the cases of a family into units of `block_cases`, numbered from 0. The first rounds have 1, 2, 4
-/// units of the family and so on, until a round has `largest()` units. All later rounds have this many units.
+/// Divides the cases of a family into units of `block_cases` cases, numbered from 0. The first round has 1
+/// unit of the family, the second has 2, the third has 4 and so on, until a round has largest() units. All
+/// later rounds have largest() units, too.
 class Rounds {
  public:
   explicit Rounds(const CampaignPlan& plan) {

@@ -1,10 +1,11 @@
 // The order of a campaign's cases: round by round, family by family.
 //
 // A round has a block of cases of every family. In the first round, a family's block has `block_cases` cases.
-// Every later round has blocks twice as large as the round before, up to 128 times the first. So at any time,
-// the decided cases are spread over all families, and subjects soon get large batches. A campaign with a
-// given number of cases is divided into at least 64 rounds if possible. Each of n shards (parts of a campaign
-// that run separately) has every n-th round, so all shards have about the same size.
+// In every later round, the blocks are twice as large as in the round before, up to 128 times as large as in
+// the first round. So at any time, the decided cases are spread over all families, and subjects soon get
+// large batches. If a campaign has a given number of cases, it is divided into at least 64 rounds, if
+// possible. If a campaign has n shards (parts that run separately), each shard has every n-th round, so all
+// shards have about the same size.
 #pragma once
 
 #include <cstddef>
@@ -34,18 +35,17 @@ Batch batch_of(const CampaignPlan& plan, const CaseBlock& block, Kind kind, cons
 /// The number of cases in a plan's shard. For a campaign without end, returns plan.first.
 std::uint64_t cases_of_shard(const CampaignPlan& plan);
 
-/// The number of cases, in the order of a campaign without shards, up to and including query `index` of a
-/// family.
+/// Returns how many cases a campaign without shards decides up to and including query `index` of a family.
 std::uint64_t cases_up_to(const CampaignPlan& plan, std::string_view family, std::uint64_t index);
 
 /// The cases of a plan's shard, in order. The plan must outlive this object.
 class CasesOfShard {
  public:
-  /// Begins with the case that follows the first `done` cases of the shard.
+  /// Skips the first `done` cases of the shard.
   CasesOfShard(const CampaignPlan& plan, std::uint64_t done);
 
-  /// The next cases, all of them in one block, and at most as many as `pace` chooses. Returns nothing when
-  /// all cases of the shard are done.
+  /// The next cases. All of them are in one block, and they are at most as many as `pace` chooses. Returns
+  /// nothing when all cases of the shard are done.
   std::optional<CaseBlock> next(const Pace& pace);
 
  private:

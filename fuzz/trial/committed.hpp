@@ -7,13 +7,15 @@
 
 namespace nearmiss {
 
-/// The query with its motion replaced by the motion from x0 to x0 + time (x1 - x0). Each operation on a
-/// coordinate is rounded to double, or to float if `in_float`. Returns nothing if a coordinate overflows.
+/// The query, changed so that each vertex moves from x0 to x0 + time (x1 - x0), where x0 and x1 are its
+/// positions at t = 0 and t = 1 in `query`. Each operation of this formula is rounded to double, or to float
+/// if `in_float`. Returns nothing if a coordinate overflows.
 std::optional<Query> committed_step(const Query& query, double time, bool in_float);
 
-/// Where a step has contact. `touches`: contact before the end of the step; for h > 0, a distance below h
-/// before the end. `touches_at_end`: contact only at the end; for h > 0, a distance of at most h at the end,
-/// or of exactly h before.
+/// When the primitives touch in a step. `touches`: they touch before the end of the step; for h > 0, their
+/// distance is below h before the end. `touches_at_end`: they touch only at the end; for h > 0, their
+/// distance is at most h at the end, or exactly h before the end, but never below h before the end. `free`:
+/// neither.
 enum class StepEnd { free, touches_at_end, touches };
 StepEnd end_of(const Query& step);
 

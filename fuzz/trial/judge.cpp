@@ -17,9 +17,9 @@ BoundAnswer Judge::ask_unit(const Query& query) const { return (wang_ ? *wang_ :
 
 namespace {
 
-/// The difference between a time and t*, the exact earliest time. `magnitude` is an upper bound of the
-/// difference's exact magnitude. Both are in the same bin of a Histogram; outside the first bin, the bound is
-/// accurate to 1/1000. `sign` is 0 if the time certainly is t*.
+/// The difference between a time and t*, the exact earliest time. `magnitude` is an upper bound of the exact
+/// magnitude of this difference. The bound and the exact magnitude are in the same bin of a Histogram;
+/// outside the first bin, the bound is accurate to 1/1000. `sign` is 0 if the time certainly is t*.
 struct TimeDifference {
   double magnitude;
   int sign;

@@ -52,10 +52,10 @@ void exchange(Numbers& x, std::size_t v, std::size_t w) {
     std::swap_ranges(start + 3 * v, start + 3 * v + 3, start + 3 * w);
 }
 
-/// Scales all numbers together, or the coordinates along each axis by themselves, so that their largest
-/// magnitude is in [2^exponent, 2^(exponent + 1)), and rounds them to integers. The separation is scaled only
-/// together with all coordinates, and becomes at least 1 if it is positive, because a query with h = 0 would
-/// ask for contact, which is another question.
+/// Scales all numbers together or, if `each_axis` is true, the coordinates along each axis by themselves.
+/// After scaling, their largest magnitude is in [2^exponent, 2^(exponent + 1)). Then rounds the scaled
+/// numbers to integers. The separation is scaled only together with all coordinates. If it is positive, it
+/// becomes at least 1, because a query with h = 0 would ask for contact, which is another question.
 void round(Numbers& x, int exponent, bool each_axis) {
   const bool has_separation = x[separation] != 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -121,8 +121,8 @@ Neighbourhood shear_axes(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Copies one position to another position, or the motion of one vertex to another vertex. A position is the
-/// place of a vertex at t = 0 or t = 1.
+/// Copies one position over another, or the motion of one vertex over the motion of another vertex. A
+/// position is the place of a vertex at t = 0 or t = 1.
 Neighbourhood join_vertices(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t to = 0; to < 8; ++to)
@@ -137,8 +137,9 @@ Neighbourhood join_vertices(const Numbers& /*x*/) {
   return changes;
 }
 
-/// Moves a vertex by the vector from one vertex to another, or by half or twice that vector. Vertices of a
-/// triangle or of coplanar edges stay in their plane.
+/// Moves a vertex by the vector from one vertex to another, or by half or twice that vector. If the vertex
+/// and the vector are in the plane of the triangle, or in a plane that contains both edges, the vertex stays
+/// in this plane.
 Neighbourhood combine_vertices(const Numbers& /*x*/) {
   Neighbourhood changes;
   for (std::size_t vertex = 0; vertex < 4; ++vertex)
@@ -196,8 +197,9 @@ Set alike(const Numbers& x, std::size_t i) {
   return set;
 }
 
-/// Replacements of numbers of one magnitude: 0; a small number; another number of the query; a number y so
-/// small that 1 + y is rounded to 1, or so large that 1 + y is rounded to y; a number with fewer bits.
+/// The replacements that are tried for the numbers of one magnitude. These are 0; small numbers; the other
+/// numbers of the query; a number y so small that 1 + y is rounded to 1, and one so large that 1 + y is
+/// rounded to y; and numbers with fewer bits.
 Alternatives replacements(const Numbers& numbers, Set set) {
   const double magnitude = std::abs(numbers[static_cast<std::size_t>(std::countr_zero(set))]);
   if (magnitude == 0) return {};
@@ -221,8 +223,8 @@ Alternatives replacements(const Numbers& numbers, Set set) {
   return changes;
 }
 
-/// Simplifies numbers of one magnitude: all numbers of this magnitude, those along one axis, those of one
-/// vertex along one axis, or only one of them.
+/// Simplifies numbers that have the same magnitude: all numbers of this magnitude in the query, or only those
+/// along one axis, those of one vertex along one axis, or a single number.
 Neighbourhood change_numbers(const Numbers& x) {
   Neighbourhood changes;
   for (std::size_t i = 0; i < x.size(); ++i) {

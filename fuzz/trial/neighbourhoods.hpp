@@ -13,14 +13,14 @@ namespace nearmiss {
 /// simple.
 using Change = std::function<void(Numbers&)>;
 
-/// Changes of which the shrinker takes at most one: the first that simplifies the query and leaves it
-/// failing.
+/// A list of changes. The shrinker takes the first change that simplifies the query and leaves it failing,
+/// and no other change of the list.
 using Alternatives = std::vector<Change>;
 
-/// The shrinker tries the entries of a neighbourhood one after the other.
+/// A list of Alternatives, which the shrinker tries one after the other.
 using Neighbourhood = std::vector<Alternatives>;
 
-/// Returns functions, each of which makes a neighbourhood of a query from the query's present numbers. The
+/// Returns functions that make neighbourhoods: each function makes one from the query's present numbers. The
 /// shrinker calls the functions in this order.
 std::vector<std::function<Neighbourhood(const Numbers&)>> neighbourhoods(Kind kind);
 

@@ -9,10 +9,10 @@
 
 namespace nearmiss {
 
-/// Chooses the sizes of slices of cases. A slice takes at most about a tenth of a second, because trials look
-/// at their limits only between slices. By default, the cases of a slice, with everything that is stored
-/// about each case, fit into a processor's caches. Results do not depend on the sizes; only run times do.
-/// Many threads use a Pace at once.
+/// Chooses the sizes of slices of cases. Trials look at their limits only between slices, so a slice should
+/// take at most about a tenth of a second. By default, a slice is so small that its cases, with everything
+/// that is stored about each case, fit into a processor's caches. Results do not depend on the sizes; only
+/// run times do. Many threads use a Pace at once.
 class Pace {
  public:
   using Duration = std::chrono::duration<double>;

@@ -76,8 +76,8 @@ bool Shrinking::start() {
 }
 
 void Shrinking::shrink(Task& task) {
-  // If the finding is that a query exceeds the time limit, every step of shrinking takes as long as that
-  // limit. Only `nearmiss shrink` shrinks such findings.
+  // If the subject fails by exceeding its time limit, every step of shrinking takes as long as this limit.
+  // Only `nearmiss shrink` shrinks such findings.
   const bool is_slow = failure_of(signature_of(task.finding)) == FailureKind::slow;
   try {
     if (is_slow)

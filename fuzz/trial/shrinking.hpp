@@ -1,5 +1,5 @@
-// Shrinks the queries of findings (recorded failures) while a trial goes on. No query of the trial waits for
-// this.
+// Shrinks the queries of findings (recorded failures) while a trial goes on. No query of the trial has to
+// wait for the shrinking.
 #pragma once
 
 #include <chrono>
@@ -20,25 +20,26 @@
 
 namespace nearmiss {
 
-/// During the trial, a separate thread shrinks findings, for at most a tenth of all processors' time. At the
-/// end of the trial, all processors shrink the remaining findings. Findings of ordinary queries come first,
-/// and the first finding of each signature (signatures.hpp) before the second. The order does not affect the
-/// shrunk queries. Only one thread at a time may call the functions of this class.
+/// During the trial, a separate thread shrinks findings; it uses at most a tenth of all processors' time. At
+/// the end of the trial, all processors shrink the remaining findings. Findings of ordinary queries are
+/// shrunk first, and the first finding of each signature (signatures.hpp) is shrunk before the second. The
+/// order does not affect the shrunk queries. Only one thread at a time may call the functions of this class.
 class Shrinking {
  public:
-  /// If `enabled` is true, shrinks the findings that FirstFindings keeps. Subjects and `stop` must outlive
-  /// this object.
+  /// If `enabled` is true, the findings that FirstFindings keeps are shrunk; otherwise, none is. The subjects
+  /// and `stop` must outlive this object.
   Shrinking(const Subjects& subjects, int jobs, const Stop& stop, bool enabled);
   Shrinking(const Shrinking&) = delete;
   Shrinking& operator=(const Shrinking&) = delete;
   ~Shrinking();
 
-  /// Queues a finding to be shrunk, and gives it the next number, from 0 on.
+  /// Queues a finding to be shrunk, and gives it the next number; the first finding has the number 0.
   void add(const Finding& finding) { add(finding, first_.count(finding)); }
 
-  /// Keeps in a result only the first findings of each signature and class (FirstFindings), gives them
-  /// certificates, and queues them to be shrunk. Adds the findings that have been shrunk since the last call.
-  /// If shrinking threw an exception, this function throws it again.
+  /// Removes from a result all findings except the first ones of each signature and class (FirstFindings).
+  /// Gives the remaining findings certificates, and queues them to be shrunk. Adds to the result the findings
+  /// that have been shrunk since the last call. If shrinking threw an exception, this function throws it
+  /// again.
   void sift(TrialResult& result);
 
   /// The findings that have been shrunk since the last call. The key is the finding's number. If shrinking
@@ -48,8 +49,8 @@ class Shrinking {
   /// The number of findings that are still to be shrunk.
   [[nodiscard]] std::size_t left() const;
 
-  /// Shrinks the remaining findings on all cores; ends early when Stop::grace has passed since a stop.
-  /// Meanwhile, calls `report` several times a second.
+  /// Shrinks the remaining findings on all cores; ends early when Stop::grace has passed since the time
+  /// limit, or at a request to stop. Meanwhile, calls `report` several times a second.
   void finish(const std::function<void()>& report);
 
  private:
@@ -66,8 +67,8 @@ class Shrinking {
 
   /// Starts a thread that calls work(); returns false if the system cannot start another thread.
   bool start();
-  /// Shrinks the findings that wait to be shrunk. Then waits for more findings, unless all queries of the
-  /// trial have been asked.
+  /// Shrinks the findings that wait to be shrunk. If the trial still has queries to ask, then waits for more
+  /// findings.
   void work();
   void shrink(Task& task);
   /// While queries are being asked, waits until the shrinking thread has used no more than a tenth of all

@@ -46,8 +46,8 @@ bool ends_process(const Verdict& verdict) {
 
 /// Passes queries on to a subject. Refuses further queries when a limit (ShrinkLimits) is reached. If
 /// `stops_when_slow` is true, also refuses queries after a query on which the subject exceeds its time limit.
-/// A subject that has exceeded its time limit once is asked one query at a time, so that it is not asked
-/// about the queries after a slow query in vain.
+/// Once a subject has exceeded its time limit, it is asked one query at a time, so that it spends no time on
+/// the queries that follow a slow query.
 class Limited final : public ForwardingSubject {
   /// Calls `ask`, which asks the subject, and returns its answer. This uses up the work of one call and of
   /// `queries` queries. Throws Error if a limit is reached.
@@ -106,8 +106,8 @@ class Limited final : public ForwardingSubject {
   std::atomic<bool>& has_been_slow_;
 };
 
-/// Whether an answer can be a failure of this kind. A verdict that reports a collision can be a fault as
-/// well: a false positive for which the subject gives an invalid bound.
+/// Whether an answer can be a failure of this kind. A verdict that reports a collision can also turn out to
+/// be a fault, if it is a false positive for which the subject gives an invalid bound.
 bool can_be(Finding::What what, const Verdict& verdict) {
   const bool is_fault = verdict.fault != Fault::none;
   switch (what) {
@@ -136,8 +136,9 @@ class SameFailure {
   /// object.
   void only_since(const Subject& before) { before_.emplace(before); }
 
-  /// The index of the first query on which the subject has the given failure. Asks the subject about all
-  /// queries at once. But if each query may end the subject's process, asks about a few queries at a time.
+  /// Returns the index of the first query on which the subject has the given failure. Asks the subject about
+  /// all queries at once; but if each query may end the subject's process, asks about a few queries at a
+  /// time.
   std::optional<std::size_t> operator()(std::span<const Query> queries) const {
     const std::size_t at_once = failure_.what == Finding::What::fault ? 4 : queries.size();
     for (std::size_t first = 0; first < queries.size(); first += at_once) {
@@ -207,8 +208,8 @@ class FindingShrinker::OfSubject {
 
  private:
   /// The simplest query on which the subject fails with the signature of the finding. If `among` is given,
-  /// the query must be one that `among` accepts. If `before` is not null, that version of the CCD must answer
-  /// the query rightly.
+  /// `among` must accept the query. If `before` is not null, the version `before` of the CCD must answer the
+  /// query rightly.
   [[nodiscard]] Query shrunk_of(const Finding& finding, const std::optional<NoMoreExotic>& among,
                                 const OfSubject* before, const std::function<void()>& check) const {
     const bool every_query_is_slow = failure_of(signature_of(finding)) == FailureKind::slow;

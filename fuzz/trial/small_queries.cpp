@@ -62,7 +62,7 @@ std::vector<Symmetry> symmetries(Kind kind) {
 /// The place of an integer in the order that decides which symmetric copy comes first: 0, 1, -1, 2, -2.
 constexpr int rank(int value) { return value > 0 ? 2 * value - 1 : -2 * value; }
 
-/// Whether the copy of x under a symmetry has only numbers that the list uses; -2 is not one of them.
+/// Whether the copy of x under a symmetry has only numbers that the list uses. The list does not use -2.
 bool is_listed(const Integers& x, const Symmetry& symmetry) {
   for (std::size_t i = 0; i < x.size(); ++i)
     if (symmetry.sign[i] * x[symmetry.from[i]] == -2) return false;

@@ -1,5 +1,5 @@
-// Effects of earlier cases on later cases: subjects are set aside, and some distances of false positives need
-// not be precise.
+// Effects of earlier cases on later cases: some subjects are set aside, and the distances of some false
+// positives need not be precise.
 #pragma once
 
 #include <algorithm>
@@ -14,13 +14,13 @@
 
 namespace nearmiss {
 
-/// The number of queries over the time limit after which a subject is set aside: it is not asked about later
-/// queries of the same family and kind.
+/// If a subject exceeds its time limit on this many queries of one family and kind, it is set aside: it is
+/// not asked about later queries of this family and kind.
 inline constexpr std::uint64_t most_slow = 3;
 
 inline bool is_set_aside(const Counts& counts) { return counts.without_answer(Fault::time) >= most_slow; }
 
-/// What earlier cases show about one subject, for one kind and family.
+/// The facts about one subject that earlier cases of one kind and family have shown.
 struct Known {
   std::uint64_t slow = 0;  ///< the number of queries on which the subject exceeded its time limit
 
@@ -32,8 +32,8 @@ struct Known {
   [[nodiscard]] bool is_set_aside() const { return slow >= most_slow; }
 };
 
-/// Keeps what the cases that have been counted so far show about each subject. Many threads may use a SoFar at
-/// once.
+/// Stores the facts (Known) that the cases counted so far have shown about each subject. Many threads may use
+/// a SoFar at once.
 class SoFar {
  public:
   [[nodiscard]] Known of(const CountsKey& key) const {

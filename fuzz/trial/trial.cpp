@@ -122,10 +122,10 @@ BatchTime ask(const Subject& subject, std::span<const Query> queries, bool timed
   return {};
 }
 
-/// Asks the subject about a sample of the queries once more: this call has fewer queries, in another order.
-/// If the second decision differs from the first, the verdict becomes the fault `inconsistent`; if the second
-/// answer is a fault, this fault replaces the first answer. Times of impact may differ, because rounding may
-/// depend on a query's place in a vector.
+/// Asks the subject about a sample of the queries once more, in a call that has fewer queries and another
+/// order. If the second decision about a query differs from the first, the verdict becomes the fault
+/// `inconsistent`. If the second answer is a fault, this fault replaces the first answer. Times of impact may
+/// differ, because rounding may depend on a query's place in a vector.
 void ask_again(const Subject& subject, const Sample& sample, bool timed, std::vector<Verdict>& verdicts) {
   std::vector<Verdict> again;
   ask(subject, sample.queries, timed, again);
@@ -209,9 +209,9 @@ class Judging {
   }
 
  private:
-  /// Counts the oracle's decision, and compares it with a recorded truth and, for sampled queries, with all
-  /// methods. If `certify_truths` is set and the recorded truth is right, also checks that a certificate
-  /// proves the oracle's decision.
+  /// Counts the oracle's decision, and compares it with the recorded truth, if there is one. For sampled
+  /// queries, also compares all methods of the oracle. If `certify_truths` is set and the recorded truth is
+  /// right, also checks that a certificate proves the oracle's decision.
   void try_oracle(std::size_t i, Truth& truth, OracleCounts& counts) {
     ++counts.queries;
     counts.collisions += truth.collision() ? 1 : 0;
@@ -318,8 +318,8 @@ class Judging {
   VersionComparison versions_;
 };
 
-/// Throws Error if a coordinate of the batch is not finite. This check also fetches the queries from memory,
-/// so that the measured time of no subject includes the fetching.
+/// Throws Error if a coordinate of the batch is not finite. This check also brings the queries into the
+/// caches, so that fetching them from memory is no part of the first subject's measured time.
 void check_coordinates(const Batch& batch) {
   for (std::size_t i = 0; i < batch.queries.size(); ++i)
     if (!is_finite(batch.queries[i]))

@@ -25,9 +25,9 @@ inline std::vector<const Subject*> pointers_to(const Subjects& subjects) {
   return pointers;
 }
 
-/// Queries of one kind and family that are decided, timed and counted together. Either all of them have a
-/// separation h > 0, or none has. A subject that takes no separation is asked only about batches of contact
-/// (h = 0).
+/// Queries of one kind and one family that are decided, timed and counted together. Either all queries of a
+/// batch have a separation h > 0, or none of them has. A subject that takes no separation is asked only about
+/// batches with h = 0, which ask for contact.
 struct Batch {
   Kind kind{};
   std::string family = {};  ///< the name under which the queries are counted
@@ -35,24 +35,26 @@ struct Batch {
   std::vector<std::optional<bool>> truths =
       {};  ///< the recorded truths of the queries, or empty; if a query is a tie, either truth is right
 
-  /// Query i has the number first_number + step * i in its family or stream. Samples of queries are chosen by
-  /// these numbers.
+  /// Query i of the batch has the number first_number + step * i in its family or stream. These numbers
+  /// decide which queries belong to samples.
   std::uint64_t first_number = 0, step = 1;
   bool timed = true;         ///< whether to time the subjects
   bool compare_all = false;  ///< whether to compare all methods of the oracle on every query
 
-  /// Returns the origin of query i of the batch. This function is called only for queries that are kept.
+  /// Returns a text that says where query i comes from. This function is called only for queries that are
+  /// kept.
   std::function<std::string(std::size_t)> provenance = {};
-  /// If set, returns the place of query i in the order of a campaign. If not set, findings are passed on in
-  /// the order of the batches.
+  /// If set, returns the place of query i in the order of a campaign; findings are passed on in this order.
+  /// If not set, findings are passed on in the order of the batches.
   std::function<std::uint64_t(std::size_t)> place = {};
-  /// If set, returns the values of the factors (Family::factors) with which query i was made.
+  /// If set, returns the factors (Family::factors) of query i, with their values.
   std::function<std::vector<std::string>(std::size_t)> factors = {};
-  /// If set, receives the outcome of each query i for each subject that can be asked about the batch.
+  /// If set, is called with the outcome of each query i for each subject that can be asked about the batch.
   std::function<void(std::size_t i, std::size_t subject, const Outcome&)> observe = {};
 
   [[nodiscard]] std::uint64_t number(std::size_t i) const { return first_number + step * i; }
-  /// Whether the subject decides queries like those of this batch.
+  /// Whether the subject decides queries of this batch's kind and, if the batch has separations, takes
+  /// separations.
   [[nodiscard]] bool can_ask(const Subject& subject) const {
     return subject.is_asked(kind, !queries.empty() && queries.front().separation > 0);
   }
@@ -61,22 +63,25 @@ struct Batch {
 struct TrialResult {
   Statistics statistics;
   std::vector<Finding> findings;
-  /// Findings that were passed on to the sink earlier, and have been shrunk since then. The key is the number
-  /// of the finding among all findings.
+  /// Findings that earlier results contained unshrunk, and that have been shrunk since then. The key is the
+  /// number of the finding among all findings.
   std::map<std::size_t, Finding> shrunk = {};
 
   void merge(TrialResult&& other);
 };
 
-/// Receives results while the trials run. The order of the results does not depend on the threads.
+/// A function that receives results while the trials run. The order of the results does not depend on the
+/// threads.
 using TrialSink = std::function<void(TrialResult&&)>;
 
-/// Selects the queries on which all methods of the oracle are compared, and the versions of a CCD to compare.
+/// Selects the queries on which all methods of the oracle are compared. Also names the versions of a CCD that
+/// are compared.
 struct Comparison {
-  /// A query that the filter leaves undecided is sampled this many times as often as other queries.
+  /// Queries that the filter leaves undecided are sampled this many times as often as other queries.
   static constexpr std::uint64_t more_of_undecided = 64;
-  /// A query counts as decided near the filter's bounds if the filter, in double and with all error bounds
-  /// multiplied by this factor, would not decide it in the same stage.
+  /// Suppose that all error bounds of the filter, computed in double, are multiplied by this factor. If the
+  /// filter then does not decide a query in the same stage as before, the query counts as decided near the
+  /// filter's bounds.
   static constexpr double caution = 16;
 
   std::uint64_t one_in = 4096;  ///< compares one query in this many, chosen by its number; at least 1
@@ -84,7 +89,7 @@ struct Comparison {
   bool certify_truths =
       false;  ///< also demands a certificate of each recorded truth that the oracle confirms
 
-  /// Empty, or the names of two subjects: the second is compared with the first (versions.hpp).
+  /// Empty, or the names of two subjects: the second subject is compared with the first (versions.hpp).
   std::vector<std::string> versions = {};
 
   [[nodiscard]] std::uint64_t one_in_undecided() const {
@@ -94,10 +99,10 @@ struct Comparison {
 
 /// Puts the subjects on trial over a batch: times each subject over the whole batch, separately from the
 /// oracle, and judges the answers (`Judge`). A subject that rounds coordinates is judged on the rounded
-/// query, which is also the query that is kept. `known` is empty, or says for each subject what earlier
-/// queries have shown (so_far.hpp). A subject that is set aside is not asked. If a subject exceeds its time
-/// limit too often in this batch, its later answers in the batch do not count. Throws Error for a coordinate
-/// that is not finite.
+/// query, and its findings keep the rounded query. `known` is empty, or has, for each subject, the effects of
+/// earlier queries (so_far.hpp). A subject that has been set aside is not asked. If a subject exceeds its
+/// time limit too often in this batch, its later answers in the batch do not count. Throws Error for a
+/// coordinate that is not finite.
 TrialResult hold_trial(const Subjects& subjects, const Batch& batch, const Comparison& comparison = {},
                        std::vector<Known> known = {});
 

@@ -6,7 +6,7 @@ namespace nearmiss {
 
 namespace {
 
-// So few queries that no thread waits long for other threads.
+// The number of queries that a thread gets at a time: so few that no thread waits long for other threads.
 constexpr std::size_t queries_of_a_thread = 4 * Pace::usual;
 
 }  // namespace

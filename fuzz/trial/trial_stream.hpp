@@ -13,9 +13,10 @@
 
 namespace nearmiss {
 
-/// Collects queries into batches by kind, by family, and by whether they have a separation, and runs the
-/// trials. A TrialStream stores only a few batches at any time. Subjects are not timed, because a few queries
-/// say nothing about a subject's speed.
+/// Collects queries into batches, and runs the trials of the batches. The queries of a batch have the same
+/// kind and the same family, and either all or none of them have a separation. A TrialStream stores only a
+/// few batches at any time. Subjects are not timed, because a few queries say nothing about a subject's
+/// speed.
 class TrialStream {
  public:
   explicit TrialStream(Trials& trials) : trials_(trials) {}
@@ -25,8 +26,8 @@ class TrialStream {
   bool add(const std::string& family, const Query& query, std::optional<bool> truth,
            std::function<std::string()> provenance);
 
-  /// Runs the trials of the queries that have not been on trial yet. After a request to stop, omits these
-  /// trials.
+  /// Runs the trials of the queries that have not been on trial yet. If a stop was requested, does not run
+  /// them.
   void finish();
 
  private:

@@ -52,8 +52,9 @@ std::size_t largest_batch_of(const Subjects& subjects) {
   return std::min(largest, most);
 }
 
-/// The largest number of cases in a slice: `usual`, or more if some subject is a plug-in. Each call of a
-/// plug-in's process then asks about more cases, so that the calls take a smaller part of the run time.
+/// The largest number of cases in a slice: `usual`, or a larger number if some subject is a plug-in. With
+/// larger slices, each call of a plug-in's process asks about more cases, so that the calls take a smaller
+/// part of the run time.
 std::size_t largest_slice(const Subjects& subjects, std::size_t usual) {
   const auto is_plugin = [](const auto& each) { return plugin_info(*each) != nullptr; };
   return std::ranges::any_of(subjects, is_plugin) ? std::max(usual, 4 * Pace::usual) : usual;
@@ -134,8 +135,9 @@ void Trials::ask(OnItsWay& item, const Batch& batch) {
   }
 }
 
-/// Returns the knowledge about each subject before the next trial of a piece of work: the knowledge when the
-/// work began, plus the number of queries over the time limit in the earlier trials of this work.
+/// Returns, for each subject, the facts that the next trial of a piece of work takes into account: those that
+/// were known when the work began, and the number of queries over the time limit in the earlier trials of
+/// this work.
 std::vector<Known> Trials::known_before(OnItsWay& item, const Batch& batch) const {
   std::vector<Known> known;
   for (const auto& subject : subjects_) {

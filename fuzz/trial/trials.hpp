@@ -19,30 +19,31 @@ namespace nearmiss {
 /// does nothing.
 using AskBatch = std::function<void(const Batch&)>;
 
-/// A piece of work: one thread asks about some batches, one after the other.
+/// A piece of work, in which one thread asks about some batches, one after the other.
 struct Work {
-  /// Calls ask(batch) for each batch of the piece; may throw Stopped. If an earlier piece sets a subject
-  /// aside (so_far.hpp) meanwhile, `hold` is called again, and must begin with the first batch.
+  /// Calls ask(batch) for each batch of the piece; may throw Stopped. If it turns out meanwhile that an
+  /// earlier piece sets a subject aside (so_far.hpp), `hold` is called again, and must begin with the first
+  /// batch.
   std::function<void(const AskBatch& ask)> hold;
-  /// Called after `hold`, in the order of the pieces of work. Returns whether the result counts. `complete`
-  /// is false if a stop interrupted the piece.
+  /// Called after `hold`, in the order of the pieces of work. Returns whether the result of the piece counts.
+  /// `complete` is false if a stop interrupted the piece.
   std::function<bool(bool complete)> counts = [](bool /*complete*/) { return true; };
 };
 
 /// Runs many trials of the same subjects. Apart from run times, the results do not depend on `jobs`.
 class Trials {
  public:
-  /// The sink receives results several times a second, in order, with the first findings of each signature
-  /// and class (FirstFindings). With `shrink`, the sink also receives the findings that have been shrunk
-  /// meanwhile. The subjects and `stop` must outlive this object.
+  /// The sink receives results several times a second, in the order of the pieces of work. The results
+  /// contain the first findings of each signature and class (FirstFindings). If `shrink` is true, they also
+  /// contain the findings that have been shrunk meanwhile. The subjects and `stop` must outlive this object.
   Trials(const Subjects& subjects, Comparison comparison, int jobs, const Stop& stop, bool shrink,
          TrialSink sink);
 
   [[nodiscard]] const Subjects& subjects() const { return subjects_; }
   [[nodiscard]] const Stop& stop() const { return stop_; }
   [[nodiscard]] int jobs() const { return jobs_; }
-  /// The number of queries that a batch should have, so that subjects get as many queries at once as they
-  /// want. The number is at most 2^16, because each thread stores a batch of its own.
+  /// The number of queries that a batch should have, so that subjects get as many queries at once as they ask
+  /// for. The number is at most 2^16, because each thread stores a batch of its own.
   [[nodiscard]] std::size_t batch_size() const { return batch_size_; }
   /// Chooses how many queries of a family to make at once.
   [[nodiscard]] const Pace& pace() const { return pace_; }
@@ -51,7 +52,8 @@ class Trials {
   /// Takes over the results of earlier runs. The sink does not receive these results.
   void resume(const Statistics& before, const std::vector<Finding>& findings);
 
-  /// Calls next() for pieces of work, and does each of them, until next() returns nothing or the stop is due.
+  /// Calls next() for one piece of work after the other, and does it, until next() returns nothing or the
+  /// stop is due.
   void run(const std::function<std::optional<Work>()>& next);
 
   /// Adds a result that is known without a trial.

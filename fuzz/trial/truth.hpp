@@ -26,12 +26,12 @@ class Truth {
 
   [[nodiscard]] Answers ask_methods() const;
 
-  /// Whether there is a t*, the earliest time at which the distance is at most the separation: a collision
-  /// and a tie have one.
+  /// Whether there is a time t*, the earliest time at which the distance is at most the separation. There is
+  /// one if the query is a collision or a tie.
   [[nodiscard]] bool has_time() const { return decision_.collision || decision_.is_tie; }
 
   /// Returns the signature of a disagreement, or "" if the methods agree. They disagree if `answers` differ
-  /// from the decision, or if a tie or an earliest time is not proved.
+  /// from the decision, or if there is no proof of a tie or of an earliest time.
   [[nodiscard]] std::string disagreement(const Answers& answers) const;
 
   /// Whether the smallest distance is exactly the separation h > 0. Then both answers, collision and no
@@ -49,18 +49,18 @@ class Truth {
   /// B, the size of the pair (pair_bound). The result is rounded.
   [[nodiscard]] double relative_speed() const;
 
-  /// The smallest distance in a false positive, minus the separation, divided by a unit of length.
+  /// The smallest distance of the primitives in a false positive, minus the separation, divided by a unit of
+  /// length.
   struct Distance {
-    double ratio;  ///< an upper bound of the quotient, in the same bin of a Histogram
+    double ratio;  ///< an upper bound of the quotient; it is in the same bin of a Histogram as the quotient
     bool exceeds;  ///< whether the quotient is above 1; this is decided exactly
   };
   Distance distance(double unit);
   /// Returns Distance::exceeds for this unit, without computing the ratio.
   [[nodiscard]] bool exceeds(double unit) const;
 
-  /// Returns the ratio of distance(unit) with a relative accuracy of 1/1000. `ratio` must be the ratio that
-  /// distance(unit) gave. If `ratio` is in the first bin of a Histogram, the function returns `ratio`
-  /// unchanged.
+  /// Returns Distance::ratio for this unit with a relative accuracy of 1/1000. `ratio` must be the ratio that
+  /// distance(unit) returned. If `ratio` is in the first bin of a Histogram, returns `ratio` unchanged.
   [[nodiscard]] double precise_ratio(double unit, double ratio) const;
 
  private:

@@ -11,10 +11,11 @@
 
 namespace nearmiss {
 
-/// For each subject, the index of the earlier version: the first subject whose plug-in exports the same name.
-/// Nothing if the subject itself is the first one with this name. A subject that is asked beyond its contract
-/// is compared only with a subject that is also asked beyond its contract. `chosen` is empty, or has the
-/// names of two subjects: the second is then compared with the first.
+/// Returns, for each subject, the index of the version with which it is compared: the first subject whose
+/// plug-in exports the same name. Returns nothing for a subject that is itself the first one with this name.
+/// A subject that is asked beyond its contract is compared only with a subject that is also asked beyond its
+/// contract. If `chosen` is not empty, it has the names of two subjects, and the second of them is compared
+/// with the first.
 std::vector<std::optional<std::size_t>> predecessors(const Subjects& subjects,
                                                      const std::vector<std::string>& chosen);
 
@@ -33,7 +34,7 @@ class VersionComparison {
   /// of the earlier version (`broken_since`). The next query then becomes the present one.
   void finish_query(std::vector<Finding>& findings);
 
-  /// Adds the counters of all queries, which are of this kind and family, to a table. If two versions never
+  /// Adds the counters of all queries to a table, under the given kind and family. If two versions never
   /// answered the same query, their counters in the table are 0.
   void add_to(VersionTable& table, Kind kind, const std::string& family) const;
 
@@ -53,8 +54,8 @@ class VersionComparison {
 };
 
 /// Whether a subject answers a query rightly. A subject whose contract excludes the query does not answer it
-/// rightly. A version of a CCD breaks a query if this version fails on the query, and the previous version
-/// answers it rightly.
+/// rightly. A version of a CCD breaks a query if this version fails on the query, and the earlier version
+/// answers the query rightly.
 class AnswersRightly {
  public:
   /// The subject must outlive this object.

@@ -1,8 +1,8 @@
 // Measures how much longer a query takes through the C and C++ interfaces than through Subject::decide, which
 // the harness calls. The subjects `exact-decision` and `wang` decide queries of the uniform family whose
 // swept boxes meet. Times are ns of processor time per query. The number after a benchmark's name is the
-// number of queries: 3,000 stay in the caches, 100,000 do not. The option below lets the benchmarks take
-// turns. Read the medians:
+// number of queries: 3,000 stay in the caches, 100,000 do not. With the option below, the benchmarks take
+// turns. Read the medians in the output:
 //   interfaces --benchmark_enable_random_interleaving=true
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // Checks the times that the harness measures. The same arithmetic runs in a plain loop, in a built-in
-// subject, and in a plug-in's own process: all three should take the same ns per query. Also measures what
-// a plug-in's process costs: ns of the wall clock per query of a plug-in that does nothing, for several sizes
-// of batches. A campaign begins with batches of 50 queries, and soon has batches of 800.
+// subject, and in a plug-in's own process. All three should take the same ns per query. Also measures what a
+// plug-in's process costs: the ns of wall-clock time per query that a plug-in needs if it does nothing, for
+// several sizes of batches. A campaign begins with batches of 50 queries, and soon has batches of 800.
 #include <benchmark/benchmark.h>
 
 #include <chrono>

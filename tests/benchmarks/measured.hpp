@@ -12,8 +12,8 @@
 
 namespace nearmiss {
 
-/// Queries of one kind from the uniform family. A branch predictor cannot memorise ten thousand of them, nor
-/// can it memorise the queries of a campaign.
+/// Queries of one kind from the uniform family. If `count` is ten thousand or more, a branch predictor cannot
+/// memorise the queries, just as it cannot memorise the queries of a campaign.
 inline std::vector<Query> uniform_queries(Kind kind, std::size_t count) {
   const Family uniform = find_family("uniform");
   std::vector<Query> queries;

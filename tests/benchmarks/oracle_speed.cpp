@@ -34,7 +34,7 @@ namespace {
 /// Queries of one kind, with one separation, whose swept boxes meet.
 struct Input {
   std::vector<Query> queries;
-  std::vector<Enclosure> times;  ///< an enclosure of each t*, as narrow as doubles allow; made when needed
+  std::vector<Enclosure> times;  ///< narrowest enclosures of the queries' t*; computed when needed
 
   Input(const std::vector<Query>& of_kind, double h) {
     for (const Query& contact : of_kind)

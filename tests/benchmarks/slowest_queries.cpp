@@ -1,7 +1,7 @@
-// Searches, for each part of the oracle's work, for the queries that take longest. The parts are the
-// decision; the earliest time of a collision; the distance of a false positive; the comparison of all exact
-// methods; the certificates. The search begins with queries of all families and with the cases in the files
-// and folders PATH. Then it mutates and crosses the slowest queries of each part. Prints ms of processor
+// Searches for the queries that take longest in each part of the oracle's work. The parts are the decision;
+// the earliest time of a collision; the distance of a false positive; the comparison of all exact methods;
+// and the certificates. The search begins with queries of all families, and with the cases in the files and
+// folders PATH. Then the search mutates and crosses the slowest queries of each part. Prints ms of processor
 // time, and writes the slowest query of each part into FOLDER:
 //   slowest_queries SECONDS SEED FOLDER [PATH...]
 #include <fmt/format.h>
@@ -41,7 +41,8 @@ struct Part {
   void (*work)(const Query& query, const Decision& decision);
 };
 
-/// Judges a false positive of a subject that claims no bound. This needs the smallest distance.
+/// Judges a false positive of the subject `basic`, which claims no bound. The judgement needs the query's
+/// smallest distance.
 void judge_report(const Query& query, const Decision& decision) {
   static const auto basic = make_subject("basic");
   static const Judge judge(*basic);

@@ -1,4 +1,4 @@
-// Conservative advancement on queries whose distances and times are known.
+// Tests conservative advancement on queries whose distances and times are known.
 #include "ccd/wang/advance.hpp"
 
 #include <gtest/gtest.h>
@@ -59,10 +59,10 @@ TEST(Advance, MeasuresTheDistanceOfEveryFeatureOfEdges) {
     EXPECT_TRUE(decide(with_separation(query, distance * (1 + 1e-9))).hit) << distance;
     EXPECT_FALSE(decide(with_separation(query, distance * (1 - 1e-9))).hit) << distance;
   };
-  expect_distance(edges_at(-0.5, 0.5, 2), 2);  // the lines' nearest points
+  expect_distance(edges_at(-0.5, 0.5, 2), 2);  // both closest points are inside their edges
   // The closest points are an end of one edge and a point inside the other edge.
   expect_distance(edges_at(3, 0.5, 4), 5);
-  expect_distance(edges_at(2, 4, 6), 7);  // two ends
+  expect_distance(edges_at(2, 4, 6), 7);  // both closest points are ends
   expect_distance(edges_at(-3, 0.5, 1.5), 2.5);
 }
 
@@ -82,7 +82,7 @@ TEST(Advance, ReportsNothingBeyondItsBound) {
 }
 
 // The triangle turns about the line x = 0, just below a vertex at rest. Two of its corners soon rise above
-// the vertex, but its plane never comes nearer to the vertex.
+// the vertex, but the plane of the triangle never comes nearer to the vertex.
 TEST(Advance, CannotTellWhereOnlyAPartApproaches) {
   const Query query = make_query(Kind::vertex_triangle, {{0, 0, 1e-9}, {-1, 0, 0}, {1, -1, 0}, {1, 1, 0}},
                                  {{0, 0, 1e-9}, {-1, 0, -1}, {1, -1, 1}, {1, 1, 1}});

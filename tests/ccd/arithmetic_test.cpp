@@ -1,5 +1,5 @@
-// Modes of the processor that make its arithmetic differ from plain double arithmetic are detected, named and
-// reset.
+// Some modes of the processor make its arithmetic differ from plain double arithmetic. Tests that these modes
+// are detected, named and reset.
 #include "ccd/query/arithmetic.hpp"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,8 @@ TEST(Arithmetic, OfTheCallerIsNotThatOfOurSubjects) {
   Verdict verdict;
   wang->decide(std::span(&query, 1), std::span(&verdict, 1));
   EXPECT_TRUE(verdict.hit);
-  // Without a guard, the caller's arithmetic changes the answer.
+  // Unlike subjects, this function does not set plain arithmetic, so the caller's arithmetic changes the
+  // answer.
   EXPECT_FALSE((::nearmiss::wang<Kind::vertex_triangle, double, WangOptions{}>(query).hit));
 }
 

@@ -1,5 +1,5 @@
-// The basic CCD with tolerances, and the options of built-in subjects. All distances and weights in these
-// tests are exact.
+// Tests the basic CCD with tolerances, and the options of built-in subjects. All distances and weights in
+// these tests are exact.
 #include "ccd/wang/bridson.hpp"
 
 #include <gtest/gtest.h>

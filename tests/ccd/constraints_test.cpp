@@ -1,4 +1,4 @@
-// The rounding errors in the constraints of the tolerances.
+// The tolerances must satisfy constraints, which depend on bounds of rounding errors. Tests these bounds.
 #include "ccd/wang/bounds/constraints.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ constexpr std::array members{&Errors::area,      &Errors::height_vt, &Errors::he
                              &Errors::weight_ee, &Errors::length2,   &Errors::weight_ve, &Errors::F,
                              &Errors::residual,  &Errors::delta,     &Errors::least_mu,  &Errors::least_psi};
 
-// The errors that §4.2 to §4.5 of the paper state, in units of ε. In double, ε^½ is 2^-26.
+// `expected` has the errors that §4.2 to §4.5 of the paper state, in units of ε. In double, ε^½ is 2^-26.
 TEST(RoundingErrors, AreThePapersAsPrinted) {
   const Errors printed = printed_errors(0x1p-52);
   const std::array<double, 12> expected{13, 21, 16, 565, 362, 22, 44, 0, 0, 311, 33492, 725 * 0x1p26};

@@ -49,7 +49,7 @@ Tolerances<double> tolerances(double h) {
 }
 
 /// The threshold that |F| must exceed at both ends of the interval around a root: μ + 2E + m, where E = 865 ε
-/// is the error of the computed F, and the solver's nodes add m = 60 ε.
+/// is the error of the computed F, and m = 60 ε is the error that the solver's nodes add.
 constexpr double threshold = 0x1p-40 + (2 * 865 + 60) * eps;
 /// The rounding errors of a weight, and of the bound on the weight's movement.
 constexpr double rounding = (1160 + 4400) * eps;
@@ -70,7 +70,8 @@ TEST(VeCulling, AnIntervalForEachRootLeavesAWeightRoomForItsMovementAndForRoundi
   }
 }
 
-// If the weights are computed in a wider scalar, only the rounding errors of the relative vectors remain.
+// If the weights are computed in a wider scalar, the only rounding errors that remain are those of the
+// relative vectors.
 TEST(VeCulling, WeightsInAWiderScalarNeedLessRoomForRounding) {
   const double slack = 2 * std::sqrt(3.0) * 4 * threshold + (590 + 3700) * eps;
   const auto is_culled = [](double weight) { return culled<VeCulling::per_root, long double>(1, weight); };

@@ -94,7 +94,7 @@ TEST(Topology, HasEveryVertexWithEveryEdgeOfTheOtherPrimitiveOnce) {
   for (const Kind kind : kinds) {
     const Topology& of = topology(kind);
     auto [first, second] = primitives(kind);
-    if (kind == Kind::vertex_vertex) second.push_back(2);  // the edge x1x2 of no length
+    if (kind == Kind::vertex_vertex) second.push_back(2);  // x1x2 counts as an edge of length 0
     expect(kind, first, second, of.first_to_second);
     expect(kind, second, first, of.second_to_first);
     EXPECT_EQ(of.vertices_and_edges.size(), of.first_to_second.size() + of.second_to_first.size());

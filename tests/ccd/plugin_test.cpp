@@ -140,7 +140,8 @@ TEST(DetectorDistance, IsEnoughWithoutDecisions) {
   EXPECT_EQ(detector.distance(query.kind, query.x.data()).distance, 0.5);
 }
 
-// The structure of an older version is shorter, and the memory after it belongs to something else.
+// The structure of an older version of the interface is shorter, and the memory after this structure belongs
+// to something else.
 TEST(DetectorDistance, IsNotReadFromAnOlderVersion) {
   nearmiss_subject subject = sound();
   subject.interface_version = 3;

@@ -82,8 +82,8 @@ TEST(Cubic, EndsEvenWhereTheResidualCannotBeReached) {
   }
 }
 
-// The claim of the paper's Appendix B: for each root t0 of the cubic F, the solver returns a t such that |F|
-// is at most its limit μ from t0 to t.
+// The paper's Appendix B claims the following. For each root t0 of the cubic F, the solver returns a t such
+// that |F| is at most μ everywhere between t0 and t.
 TEST(Cubic, EveryRootHasACandidateReachedWithinTheResidual) {
   const double mu = 64 * std::ldexp(1.0, -39);
   for (std::uint64_t i = 0; i < 5000; ++i) {

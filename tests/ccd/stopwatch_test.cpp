@@ -1,4 +1,4 @@
-// The stopwatch measures computing time, or, if the work waits, the time that passes.
+// The stopwatch measures computing time. If the work waits, the stopwatch measures the time that passes.
 #include "ccd/subjects/stopwatch.hpp"
 
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(Stopwatch, CountsComputingWhileTheProcessHasALimitOfCpuTime) {
 }
 
 TEST(Stopwatch, TheBestTimeIsTheShortest) {
-  int calls = 0;  // the first call shows that the work is long
+  int calls = 0;  // best_time_of() makes one call to see how long the work takes, then times three more
   const auto short_once = [&] { compute_for(++calls == 3 ? millisecond / 10 : 20 * millisecond); };
   EXPECT_LT(best_time_of(CLOCK_THREAD_CPUTIME_ID, short_once), 5 * millisecond);
   EXPECT_EQ(calls, 4);

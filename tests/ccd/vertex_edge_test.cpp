@@ -1,4 +1,5 @@
-// The tests VV and VE report every pair within their thresholds, and no pair farther apart than the bound.
+// The paper's tests VV and VE must report every pair within their thresholds, and no pair farther apart than
+// the claimed bound.
 #include "ccd/wang/vertex_edge.hpp"
 
 #include <gtest/gtest.h>
@@ -42,8 +43,8 @@ TEST(Tolerances, AreThePapersForDouble) {
 
 TEST(VertexVertex, ReportsWhatIsWithinD) {
   const double D = std::sqrt(tol.D2);
-  // D is the threshold of the test. Two vertices pass each other at distance D at t = 1/2, rest at this
-  // distance, or pass slightly farther apart.
+  // D is the threshold of the test. Two vertices pass each other at distance D at t = 1/2, or rest at
+  // distance D, or pass each other slightly farther apart.
   EXPECT_EQ(vertex_vertex(moving({D, -0.5, 0}, {0, 1, 0}), tol), 0.5);
   EXPECT_EQ(vertex_vertex(moving({D, 0, 0}, {0, 0, 0}), tol), 0);
   EXPECT_FALSE(vertex_vertex(moving({D * 1.001, -0.5, 0}, {0, 1, 0}), tol));

@@ -76,7 +76,8 @@ TEST_P(EveryWang, DoesNotReportWhatStaysFarAway) {
   EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, 2, 1)).hit);
   EXPECT_FALSE(decide(falling_vertex(2, 2, 1, -1)).hit);
   EXPECT_FALSE(decide(falling_edge(2, 1)).hit);
-  // Taken literally, the paper's Algorithm 3 would test the configuration at t = 0, whatever the cubic F is.
+  // If one took the paper's Algorithm 3 literally, it would test the configuration at t = 0, whatever the
+  // cubic F is.
   EXPECT_FALSE(decide(falling_vertex(0.25, 0.25, 5, 5)).hit);
 }
 

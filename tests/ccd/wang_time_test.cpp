@@ -1,4 +1,5 @@
-// The lower bounds of the time that wang-time and advance give, on queries whose times are known.
+// The subjects wang-time and advance give lower bounds of the time. Tests these bounds on queries whose times
+// are known.
 #include "ccd/wang/wang_time.hpp"
 
 #include <gtest/gtest.h>
@@ -25,7 +26,8 @@ void expect_just_before(const Query& query, double time) {
   EXPECT_GE(verdict.time, time - 1e-10);
 }
 
-/// The subjects whose times are lower bounds of t*, and by how much their times may be earlier than t*.
+/// The subjects whose times are lower bounds of t*, each with a limit on how much earlier than t* its times
+/// may be.
 constexpr std::pair<const char*, double> lower_bounds[]{{"advance", 1e-12}, {"wang-time", 1e-10}};
 
 TEST(LowerBounds, AreJustBeforeContact) {
@@ -95,8 +97,8 @@ TEST(WangTime, DoesNotDependOnAGivenBound) {
   EXPECT_EQ(make_subject("wang-time@1e3")->decide(query).time, decide(query).time);
 }
 
-// The pair is reported only because the caller gives a large bound of all lengths, B = 1e6. It has no
-// contact, so 1 is a lower bound.
+// wang-time reports the pair only because the caller gives a large bound on all lengths, B = 1e6. The pair
+// has no contact, so 1 is a lower bound of the time.
 TEST(WangTime, IsOneWithoutContact) {
   const Query query = falling_vertex(0.25, 0.25, 2, 1);
   const Verdict verdict =

@@ -1,5 +1,5 @@
-// Compares the features of first approaches at rational times with the features that rational arithmetic
-// finds.
+// Takes queries whose first approach is at a rational time, and compares the features of this approach with
+// the features that rational arithmetic finds.
 #include <gtest/gtest.h>
 
 #include <array>

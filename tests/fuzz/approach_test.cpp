@@ -1,4 +1,4 @@
-// Tests the search for the smallest distance, on queries of families.
+// Tests the search for the smallest distance on queries of several families.
 #include "oracle/distance/approach.hpp"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ TEST(ClosestApproach, DoesNotTellACollisionFromContact) {
   }
 }
 
-/// For this query, interval arithmetic in double once gave a distance far above the smallest one: 4.85e-08
-/// times the bound of a CCD.
+/// In double, interval arithmetic has given a distance for this query that was far above the smallest one:
+/// 4.85e-08 times the bound of a CCD.
 TEST(DistanceInUnits, ASliversDistanceIsKnown) {
   const Query query = make_query(find_family("sliver"), 77, 454);
   const Enclosure distance = minimum_distance(query);

@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-/// The names of the rows that have a given property, from both tables of rounding constants.
+/// The names of all rows with a given property, in both tables of rounding constants.
 std::vector<std::string_view> names_of(bool (RoundingConstant::*property)() const) {
   std::vector<std::string_view> names;
   for (const auto& rows : {rounding_bounds(), rounding_consequences()})

@@ -1,5 +1,5 @@
-// Large batches: how many queries detectors get at once, in which layout, and which verdicts follow from a
-// failure.
+// Large batches: how many queries a detector gets at once, in which layout it gets them, and which verdicts
+// the queries of a batch get if the call fails.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -109,8 +109,8 @@ TEST(Batches, HaveTheLimitOfOneQueryAndAThousandthForEachOther) {
   EXPECT_EQ(isolation::limit_of_batch(batch), 10);
 }
 
-// The call with the whole batch crashes, and so does a later call with a part of the batch. But no query of
-// this part crashes when the query is asked by itself.
+// The call with the whole batch crashes, and so does a later call with a part of the batch. But when each
+// query of this part is asked by itself, no call crashes.
 TEST(Batches, ACrashThatDoesNotRepeatCounts) {
   const auto verdicts = answers_of(*wanting("wearing"), std::vector<Query>(20'000));
   const auto crashes =

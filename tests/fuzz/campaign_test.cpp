@@ -1,5 +1,5 @@
-// A campaign gives the same result with any number of threads, shards (parts that run separately) and
-// interruptions.
+// A campaign gives the same result however many threads, shards (parts that run separately) and interruptions
+// it has.
 #include "fuzz/trial/campaign.hpp"
 
 #include <gtest/gtest.h>

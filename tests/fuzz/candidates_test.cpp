@@ -184,7 +184,8 @@ TEST(Candidates, FindsTheSameAsBruteForceInAMeshOfAFewUlps) {
 }
 
 // The separation is the distance between a vertex and a triangle, rounded to a double. The midpoint between
-// the two lies on the border of two cells, because the grid extends from -2 to 2 times the midpoint.
+// the vertex and the triangle lies on the border of two cells, because the grid extends from -2 to 2 times
+// the midpoint.
 TEST(Candidates, LosesNoPairWhoseDistanceIsRoundedToTheSeparation) {
   std::size_t found = 0;
   Random random(1, 0, 0);
@@ -213,7 +214,7 @@ TEST(Candidates, FindsAllPairsOfEqualBoxes) {
   EXPECT_GT(expect_brute_force(point, {1.0, 1e308}), 1000);
 }
 
-// A group holds four boxes. So the smallest of these meshes have one group, and the larger ones have two
+// A group holds four boxes. So the smallest of these meshes have one group, and larger meshes have two
 // groups, a group of groups, and so on.
 TEST(Candidates, FindsTheSameAsBruteForceInMeshesOfFewPrimitives) {
   std::size_t found = 0;

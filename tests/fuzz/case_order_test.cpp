@@ -9,7 +9,8 @@
 namespace nearmiss {
 namespace {
 
-/// A plan of three families, of which the first round asks 10, 20 and 30 cases.
+/// A plan of three families. The first round asks 10 cases of the first family, 20 of the second, and 30 of
+/// the third.
 CampaignPlan plan_of(std::uint64_t cases) {
   CampaignPlan plan;
   plan.cases = cases;
@@ -20,8 +21,8 @@ CampaignPlan plan_of(std::uint64_t cases) {
   return plan;
 }
 
-/// The blocks of a plan's shard, in order. A block has the cases of one family in one round; CasesOfShard
-/// gives it in slices, which are joined here.
+/// The blocks of a plan's shard, in order. A block has the cases of one family in one round. CasesOfShard
+/// gives each block in slices, and this class joins the slices.
 class Blocks {
  public:
   explicit Blocks(const CampaignPlan& plan, std::uint64_t done = 0) : cases_(plan, done) {

@@ -12,8 +12,8 @@ namespace {
 
 using ::testing::UnorderedElementsAreArray;
 
-/// Boxes that extend over at most `size` cells in each direction, and lie anywhere in a cube of 2000 cells in
-/// each direction.
+/// Random boxes. Each box extends over at most `size` cells in each direction, and lies somewhere in a cube
+/// whose sides are 2000 cells long.
 std::vector<CellBox> random_boxes(std::uint64_t seed, std::size_t count, int size) {
   Random random(seed, 0, 0);
   std::vector<CellBox> boxes(count);

@@ -1,4 +1,4 @@
-// The precision that subjects claim for a scene.
+// Tests the precision that a subject claims for the pairs of a scene.
 #include "fuzz/scenes/claimed_precision.hpp"
 
 #include <gtest/gtest.h>

@@ -44,8 +44,8 @@ TEST(Classify, CoordinatesAreExtremeAbove1e30OrIfAllAreBelow1eMinus30) {
   EXPECT_TRUE(is_degenerate(scaled(query, 0)));
 }
 
-/// An edge of length 1 + 2^-60 above a second edge. The length of the second edge is 1e8 times the length of
-/// the first edge, minus 2^-60 times `change`. Neither length is a double.
+/// An edge of length 1 + 2^-60 above a second edge. The second edge is 1e8 times as long as the first edge,
+/// less 2^-60 times `change`. Neither length is a double.
 Query long_edge(double change) {
   const double tiny = 0x1p-60;
   const Vector a(0, -tiny, 0), b(0, 1, 0), c(1e8, 0, 0), d((change - 1e8) * tiny, 0, 0);
@@ -67,7 +67,7 @@ TEST(Classify, AnEdgeIsExtremeIfItIsMoreThan1e8TimesLongerThanAnother) {
   EXPECT_TRUE(is_extreme(long_edge(-0x1p-20)));
   const Query point = make_query(Kind::edge_edge, {{0, 0, 1}, {0, 0, 1}, {-1, 0, 0}, {1, 0, 0}},
                                  {{0, 0, -1}, {0, 0, -1}, {-1, 0, 0}, {1, 0, 0}});
-  EXPECT_TRUE(is_degenerate(point));  // the ratio of the edges' lengths leaves out an edge of length 0
+  EXPECT_TRUE(is_degenerate(point));  // an edge of length 0 does not count in the ratio of the edges' lengths
 }
 
 TEST(Classify, AMotionIsExtremeAbove1000TimesTheLongestEdge) {

@@ -32,7 +32,7 @@ TEST(CommittedStep, EndsWhereTheSolverPutsTheVertices) {
   const Query step = *committed_step(falling, 0.25, false);
   EXPECT_EQ(step.start(0), falling.start(0));
   EXPECT_EQ(step.end(0), (Vector3<double>(0.25, 0.25, 0.5)));
-  // Each operation is rounded, as in 1 + 0.1 (0.7 - 1), which differs from 1 - 0.03.
+  // Each operation is rounded. So 1 + 0.1 (0.7 - 1) differs from 1 - 0.03.
   Query query = falling;
   query.x[2] = 1;
   query.x[14] = 0.7;
@@ -63,8 +63,8 @@ TEST(CommittedStep, MayTouchOnTheWayOrAtItsEnd) {
 }
 
 /// A subject that reports every collision. The subject's time is the earliest time t*, rounded down to a
-/// double, minus `early`; the time 0 replaces a negative time. If `in_float`, the time is then rounded down
-/// to a float.
+/// double, minus `early`. If this is negative, the time is 0. If `in_float`, the time is then rounded down to
+/// a float.
 std::unique_ptr<Subject> sharp(bool in_float, double early, TimeSort sort) {
   const auto decide = [=](const Query& query) {
     Query rounded = query;

@@ -31,8 +31,8 @@
 namespace nearmiss {
 namespace {
 
-// nearmiss reads the computing time of processes from /proc. A process may end while nearmiss reads the files
-// of this process there.
+// nearmiss reads the computing time of processes from /proc. A process may end while nearmiss reads that
+// process's files.
 TEST(ComputingTime, OfProcessesThatEndMeanwhileIsNotAnError) {
   std::atomic<bool> is_over = false;
   std::thread parent([&] {
@@ -117,8 +117,8 @@ TEST(Isolation, LeavesNoFileAndNoMemory) {
   EXPECT_EQ(held(), before);
 }
 
-/// While an object of this class exists, all signals of this process are blocked, and the end of its children
-/// is ignored.
+/// While an object of this class exists, this process blocks all signals, and ignores the end of its
+/// children.
 class ForeignSignals {
  public:
   ForeignSignals() {
@@ -201,8 +201,8 @@ std::vector<pid_t> tree_of(pid_t root) {
   return tree;
 }
 
-// The plug-in computes for an eighth of a second per query. With the limit of 0.4 s, a query may take 4 s of
-// wall-clock time; all processes are suspended for more than 4 s.
+// The plug-in computes for an eighth of a second per query. The time limit of 0.4 s allows a query to take up
+// to 4 s of wall-clock time. The test suspends all processes for more than 4 s.
 TEST(Isolation, TimeInWhichEverythingIsSuspendedDoesNotCount) {
   std::array<int, 2> ready{};
   ASSERT_EQ(pipe(ready.data()), 0);
@@ -258,7 +258,8 @@ TEST(Isolation, MayStartSomeProcesses) {
   EXPECT_TRUE(subject->decide(queries().front()).hit);
 }
 
-// throwing.cpp throws for a query with x > 0.9, and without a text for x = 0.5; it crashes for x = -2.
+// throwing.cpp throws an exception with a text for a query with x > 0.9, and an exception without a text for
+// x = 0.5. It crashes for x = -2.
 TEST(Isolation, AnExceptionIsAFaultWithItsText) {
   const auto subject = make_isolated_plugin(plugin("throwing"));
   auto asked = queries();

@@ -15,8 +15,8 @@ namespace {
 
 using testing::falling_vertex;
 
-/// A subject with this contract. It misses every collision, and `asked` receives the queries about which it
-/// is asked.
+/// A subject with this contract. The subject misses every collision, and adds each query that it is asked to
+/// `asked`.
 std::unique_ptr<Subject> noting(const Contract& contract, std::vector<Query>& asked) {
   const auto note = [&](const Query& query) {
     asked.push_back(query);
@@ -73,7 +73,7 @@ TEST(ContractedSubject, ShrinkingStaysOnTheSameSideOfTheContract) {
 TEST(ContractedSubject, ItsContractIsAboutTheRoundedQuery) {
   const Subjects sides = keep_contract(make_any_subject(testing::plugin("several") + ":narrow-apart"), true);
   ASSERT_EQ(sides.size(), 2U);
-  const Query query = falling_vertex(0.25, 0.25, 1e-60, -1);  // 0 as a float
+  const Query query = falling_vertex(0.25, 0.25, 1e-60, -1);  // the height is rounded to 0 in float
   EXPECT_EQ(sides[0]->decide(query).fault, Fault::contract);
   EXPECT_EQ(sides[1]->decide(query).fault, Fault::none);
   for (const auto& side : sides)

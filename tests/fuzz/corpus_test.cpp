@@ -1,5 +1,5 @@
-// The corpus: every case has a reason, and records a truth with which the oracle agrees; wang reports every
-// collision.
+// Tests the corpus. Every case has a reason, and records a truth with which the oracle agrees. wang reports
+// every collision of the corpus.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,5 +1,5 @@
-// The family `crossed`: queries have the properties that the values of their factors name, contacts are
-// exact, and every pair of values that the family can make occurs.
+// The family `crossed`: each query has the properties that the values of its factors name, contacts are
+// exact, and every possible pair of values of two factors occurs.
 #include "fuzz/families/crossed.hpp"
 
 #include <gtest/gtest.h>
@@ -84,9 +84,10 @@ int sign_changes(const Query& query) {
 }
 
 TEST(Crossed, FHasTheRootsOfItsFactor) {
-  // Both maps have values of the factor `roots` as keys. `at_contact` gives the multiplicity of the root at
-  // the contact, or 0 if F is zero everywhere; it leaves out multiplicity 1. `simple` has the values for
-  // which all roots are simple, and gives the number of roots in the step.
+  // The keys of these maps are values of the factor `roots`. `at_contact` has the values for which the
+  // contact is at a multiple root, and gives the multiplicity of this root. For the value `all`, F is zero
+  // everywhere, and `at_contact` gives 0. `simple` has the values for which all roots are simple, and gives
+  // the number of roots in the step.
   const std::map<Roots, int> at_contact{{Roots::all, 0}, {Roots::double_root, 2}, {Roots::triple, 3}};
   const std::map<Roots, int> simple{{Roots::one, 1}, {Roots::two, 2}, {Roots::three, 3}};
   int counted = 0;

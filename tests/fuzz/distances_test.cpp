@@ -93,8 +93,8 @@ TEST(DistanceError, SeesWrongWeights) {
   EXPECT_FALSE(is_wrong(crossing, {0.5, 0.5, 0.5, 0.5}, 0.5));
   EXPECT_TRUE(is_wrong(crossing, {0.5, 0.5, 1, 0}, 0.5));
   EXPECT_FALSE(is_wrong(testing::scaled(vertex_above, 0x1p+1023), {1, 0.5, 0.25, 0.25}, 0x1p+1023));
-  // Far from the origin, weights that add up to 1 - 2^-53 must not count as wrong, although they move a
-  // point.
+  // Weights that add up to 1 - 2^-53 must not count as wrong, although they move a point that is far from the
+  // origin.
   const Query far = testing::moved(vertex_above, 0x1p+40);
   EXPECT_FALSE(is_wrong(far, {1, 0.5, 0.25, 0.25 - 0x1p-53}, 1));
 }
@@ -114,7 +114,7 @@ QuestionPlan usual(std::uint64_t cases) {
 
 QuestionResults<DistanceQuestion> measured(const std::string& name, const QuestionPlan& plan) {
   Subjects subjects;
-  subjects.push_back(make_subject(name));  // the subject runs in this process, because that is faster
+  subjects.push_back(make_subject(name));  // without a process of its own, the subject is faster
   return QuestionTrial<DistanceQuestion>(subjects, plan, Stop::never()).run([](std::uint64_t) {});
 }
 
@@ -174,8 +174,8 @@ TEST(DistanceTrial, AnAnswerThatChangesIsAFault) {
 }
 
 TEST(DistanceTrial, TellsAtWhichSizesAFunctionIsRight) {
-  // This defect takes edges shorter than 2^-10 for points. Among the queries with one value of the factor
-  // `edge`, some edges are much shorter than usual.
+  // This defect takes edges shorter than 2^-10 for points. Even among queries with the same value of the
+  // factor `edge`, some edges are much shorter than others.
   QuestionPlan plan = usual(15'000);
   plan.families = {find_family("rest-units")};
   plan.kinds = {Kind::vertex_triangle, Kind::edge_edge};

@@ -1,4 +1,4 @@
-// The time of the first contact or approach: the certified enclosure of this time, and comparisons with other
+// The time t* of the first contact or approach: its certified enclosure, and comparisons of t* with other
 // times.
 #include "oracle/earliest_time.hpp"
 
@@ -21,8 +21,8 @@ namespace {
 double above(double x) { return std::nextafter(x, 2); }
 double below(double x) { return std::nextafter(x, 0); }
 
-/// Times to compare with t*, the earliest time. Some are hard to compare with it: the ends of `known` and
-/// `narrow`, which enclose t*, and the doubles next to these ends.
+/// Times to compare with t*, the earliest time. Some of these times are hard to compare with t*: the ends of
+/// `known` and `narrow`, which enclose t*, and the doubles next to these ends.
 std::vector<double> times_around(const Enclosure& known, const Enclosure& narrow) {
   std::vector<double> times{0, 1, 0.5};
   for (const double end : {known.lo, known.hi, narrow.lo, narrow.hi})

@@ -48,7 +48,7 @@ bool grants_namespaces() {
   return status == 0;
 }
 
-/// The parameter is whether the plug-in may have a PID namespace.
+/// The parameter says whether the plug-in may have a PID namespace.
 class Containment : public ::testing::TestWithParam<bool> {
  protected:
   Containment() { setenv("NEARMISS_PROCESS", std::to_string(getpid()).c_str(), 1); }
@@ -156,7 +156,7 @@ bool has_landlock() { return syscall(SYS_landlock_create_ruleset, nullptr, 0, 1)
 
 TEST_P(Containment, NoOtherProcessOfTheUserCanBeRead) {
   if (!GetParam() && !has_landlock()) GTEST_SKIP() << "found no Landlock";
-  // This process drops its privileges, so that it is like any other process of an ordinary user.
+  // The victim drops its privileges, so that it is like any other process of an ordinary user.
   const pid_t victim = fork();
   if (victim == 0) {
     __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
@@ -174,10 +174,10 @@ TEST_P(Containment, NoOtherProcessOfTheUserCanBeRead) {
   waitpid(victim, nullptr, 0);
 }
 
-// nearmiss ends a plug-in by ending its process group: all processes of the group end, even if they start
-// others faster than nearmiss can find them.
+// nearmiss ends a plug-in by ending its process group: all processes of the group end, even if they start new
+// processes faster than nearmiss can find these.
 TEST_P(Containment, NoProcessLeavesTheGroupThatEndsWithThePlugin) {
-  EXPECT_EQ(refuses("escaping_leave"), !GetParam() || !grants_namespaces());  // else, the namespace ends them
+  EXPECT_EQ(refuses("escaping_leave"), !GetParam() || !grants_namespaces());  // a namespace would end them
 }
 
 TEST_P(Containment, APluginHasNoPrivilegesExceptOnFilesAndReachesNoKeyrings) {

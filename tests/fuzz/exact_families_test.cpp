@@ -1,5 +1,5 @@
-// Families of exact contact keep their promises: contact at the ends of the step, at times that are hard to
-// find, and at double and triple roots.
+// Families of exact contact keep their promises: they make contacts at the ends of the step, at times that
+// are hard to find, and at double and triple roots.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +78,8 @@ TEST(EvenRoots, ThePrimitivesMeetTwiceHoweverNearTheTimes) {
     expect_more(family, 40, [](const Query& query) { return testing::count_roots(query).distinct == 2; });
 }
 
-// One query in eight is made with a triple root, which stays exact if no number is rounded.
+// The family makes one query in eight with a triple root. The root stays exact if no number of the query is
+// rounded.
 TEST(TripleRoot, ThePrimitivesMeetInATripleRoot) {
   expect_more("triple-root@-16", 5, [](const Query& query) {
     const testing::RootCount roots = testing::count_roots(query);

@@ -1,4 +1,5 @@
-// Families are pure functions, make queries of finite numbers, and keep the promises of their descriptions.
+// A family is a pure function. Its queries have finite numbers, and keep the promises of the family's
+// description.
 #include "fuzz/families/families.hpp"
 
 #include <gmock/gmock.h>
@@ -41,7 +42,7 @@ std::uint64_t fingerprint(const Family& family) {
   return hash.value();
 }
 
-// A query's provenance always gives the same query, with every compiler. On processors without fused
+// With every compiler, a provenance must always give the same query. On processors without fused
 // multiply-add, families that draw log-uniform numbers make other queries.
 TEST(EveryFamily, MakesTheQueriesThatItAlwaysMade) {
   const std::map<std::string, std::uint64_t> recorded{

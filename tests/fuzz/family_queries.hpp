@@ -1,4 +1,4 @@
-// The first queries of a family, and how many of them have a property.
+// Makes the first queries of a family, and counts those that have a property.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -72,8 +72,8 @@ inline std::vector<Query> first_queries(std::string_view name, std::uint64_t cou
   return queries;
 }
 
-/// The primitives at rest, at the positions that they have at `time`. Positions are rounded, except for the
-/// times 0 and 1.
+/// The query with its primitives at rest, at the positions that they have at `time`. Positions are rounded
+/// unless `time` is 0 or 1.
 inline Query at_rest(Query query, double time) {
   for (std::size_t i = 0; i < 12; ++i) {
     const double place = (1 - time) * query.x[i] + time * query.x[12 + i];

@@ -89,7 +89,7 @@ TEST(Isolation, AnswersAsThePluginDoesInOurProcess) {
   }
 }
 
-// The plug-in sleeps at least as long as the test expects, so the test does not depend on speed.
+// The plug-in always sleeps at least as long as the test expects, so the test passes on a slow machine, too.
 TEST(Isolation, WaitingForADeviceCounts) {
   const auto queries = first_queries("uniform", 20);
   std::vector<Verdict> verdicts(queries.size());
@@ -114,8 +114,8 @@ void use_one_processor() {
   sched_setaffinity(0, sizeof allowed, &allowed);
 }
 
-/// Uses the processor for some milliseconds, so that the operating system afterwards prefers other processes
-/// to this one.
+/// Uses the processor for some milliseconds. Afterwards, the operating system prefers other processes to this
+/// one.
 void compute_for_some_time() {
   const auto start = std::chrono::steady_clock::now();
   while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(5)) {
@@ -176,7 +176,8 @@ TEST(Isolation, WhateverLoadingTookAQueryMayUseItsMemory) {
   EXPECT_TRUE(subject->decide(one_batch(1).front()).hit);
 }
 
-// A process may die at any moment; each answer that it leaves behind must be an answer of the plug-in.
+// The plug-in's process may die at any moment. Each answer that the process leaves behind must be an answer
+// of the plug-in.
 TEST(Isolation, AnAnswerIsThePluginsEvenIfItsProcessDiesWhileItIsTimed) {
   const auto subject = make_isolated_plugin(plugin("aborts_later"));
   const auto queries = one_batch(50);
@@ -278,7 +279,8 @@ TEST(Isolation, AStopDoesNotWaitForAWorkerThatDoesNotStart) {
 }
 
 TEST(Isolation, EachQueryHasTheWholeTimeLimit) {
-  // Each of 12 queries takes an eighth of a second. Together, they take longer than the limit for one query.
+  // Each of the 12 queries takes an eighth of a second. Together, the queries take longer than the limit for
+  // one query.
   const auto subject = make_isolated_plugin(plugin("computes"), {.time = std::chrono::seconds(1)});
   for (const Verdict& verdict : answers_of(*subject, one_batch(12))) EXPECT_EQ(verdict.fault, Fault::none);
 }

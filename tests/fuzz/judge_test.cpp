@@ -1,4 +1,4 @@
-// The judge decides whether an answer is a failure, and which sort of failure.
+// The judge decides whether an answer is a failure, and which sort of failure it is.
 #include "fuzz/trial/judge.hpp"
 
 #include <gtest/gtest.h>
@@ -139,8 +139,8 @@ TEST(ShrunkFinding, OfABoundStaysBeyondIt) {
   EXPECT_LE(complexity(shrunk).numbers, 2);
 }
 
-// A subject that fails on a query in a trial fails in the same way when the judge asks it again, so the query
-// can be shrunk.
+// If a subject fails on a query in a trial, the subject fails in the same way when the judge asks it again.
+// So the query can be shrunk.
 TEST(BadBound, IsCountedShrunkAndJudgedAlike) {
   const Subjects subjects = testing::one(make_isolated_plugin(plugin("bound_nan")));
   std::vector<Query> queries;

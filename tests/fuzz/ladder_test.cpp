@@ -61,7 +61,7 @@ TEST(DoubleDouble, EveryOperationIsWithinItsEpsilon) {
     sum = std::max(sum, error(a - b, exactly(a) - exactly(b)));
     product = std::max(product, error(a * b, exactly(a) * exactly(b)));
     quotient = std::max(quotient, error(a / b, exactly(a) / exactly(b)));
-    // The relative error of a root is half the relative error of the root's square.
+    // The relative error of a root is half of the relative error that the square of the root has.
     const DoubleDouble r = sqrt(abs(a));
     root = std::max(root, error(r * r, abs(exactly(a))) / 2);
   }

@@ -1,4 +1,4 @@
-// Tests which primitives the picture of a step shows.
+// Tests which primitives of a scene the picture of a step shows and marks.
 #include "fuzz/scenes/marks.hpp"
 
 #include <gtest/gtest.h>

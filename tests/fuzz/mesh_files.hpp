@@ -1,4 +1,4 @@
-// Files with the same mesh, a square, in all formats, and a fixture that reads them.
+// One mesh, a square, as a file of each format, and a fixture that reads such files.
 #pragma once
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// Mutations are pure functions, make finite numbers, and keep near collisions. Also tests the places at which
-// mutations restore contact, and libFuzzer's inputs.
+// Mutations are pure functions, and give queries of finite numbers that often collide. Also tests the places
+// at which mutations restore contact, and libFuzzer's inputs.
 #include "fuzz/families/mutation.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Parallel work whose results are delivered in the order of the pieces of work.
+// Pieces of work run in parallel, and their results are delivered in the order of the pieces.
 #include "fuzz/parallel.hpp"
 
 #include <gtest/gtest.h>

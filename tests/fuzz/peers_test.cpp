@@ -1,4 +1,4 @@
-// The published CCDs that are built with the product, and the names and adapters of all published CCDs.
+// The published CCDs that are built together with nearmiss, and the names and adapters of all published CCDs.
 #include "fuzz/subjects/peers.hpp"
 
 #include <gmock/gmock.h>

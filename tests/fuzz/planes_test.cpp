@@ -1,5 +1,4 @@
-// The plane tests of the oracle and those of the subjects agree on every family. Both were written
-// independently of each other.
+// The plane tests of the oracle and those of the subjects agree on every family, although they share no code.
 #include <gtest/gtest.h>
 
 #include "ccd/wang/plane_culling.hpp"

@@ -20,8 +20,8 @@ using testing::answers_of;
 class ProgramTest : public testing::TemporaryFolder {
  protected:
   /// A program that reports every query at t = 0.5. Before the program answers a request, it runs the code
-  /// `then`, which can read the queries in `rows` and change `answers`. The program's description of itself
-  /// also has `lines`.
+  /// `then`, which can read the queries in `rows` and change `answers`. When the program describes itself,
+  /// the description ends with `lines`.
   [[nodiscard]] std::string program(const std::string& then, const std::string& lines = "") const {
     return command("say('nearmiss 3\\nname p\\nkinds vt ee vv ve\\nbatch 64\\n" + lines + R"(\n')
 while header := sys.stdin.buffer.read(24):
@@ -44,8 +44,8 @@ while header := sys.stdin.buffer.read(24):
     return "pipe:" NEARMISS_PYTHON " " + write("p.py", text).string();
   }
 
-  /// Asks program(then) about three queries, of which only the last one has x[0] = 1. The last query must get
-  /// this fault, with this code and text.
+  /// Asks program(then) about three queries, and only the last of these queries has x[0] = 1. The last query
+  /// must get this fault, with this code and text.
   void expect_fault(const std::string& then, Fault fault, int code = 0, const std::string& text = "") const {
     const auto time = std::chrono::milliseconds(fault == Fault::time ? 40 : 200);
     const auto subject = make_any_subject(program(then), std::nullopt, {.time = time});
@@ -100,8 +100,8 @@ TEST_F(ProgramTest, SaysWhatASharedObjectCan) {
 }
 
 TEST_F(ProgramTest, GivesDistances) {
-  // To measure the distance of a vertex and an edge, the program gets their nine coordinates at t = 0, and
-  // the same nine in place of those at t = 1.
+  // If the question is the distance of a vertex and an edge, the program gets their nine coordinates at t =
+  // 0. In place of the coordinates at t = 1, it gets the same nine numbers again.
   const auto subject = make_any_subject(
       program("if question == 2: answers = [rows[0][8] if rows[0][:9] == rows[0][9:18] else -1, 0]",
               "distance ve\\n"));
@@ -205,7 +205,7 @@ TEST_F(ProgramTest, ThatTakesTooLongIsLate) {
   expect_fault("while rows[-1][0] == 1: pass", Fault::time);
 }
 
-// If a program could write more bytes than its answers have, later questions would get answers to earlier
+// If nearmiss accepted more bytes than the answers have, the surplus bytes would become the answers to later
 // questions.
 TEST_F(ProgramTest, BytesThatAnswerNoQuestionBreakTheProtocol) {
   const std::string numbers = "sys.stdout.buffer.write(struct.pack('<20d', *[1] * 20))";

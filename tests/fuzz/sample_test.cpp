@@ -1,4 +1,4 @@
-// Tests which of its queries a trial samples.
+// Tests which of its queries a trial chooses as samples.
 #include "fuzz/trial/sample.hpp"
 
 #include <gtest/gtest.h>

@@ -74,7 +74,7 @@ TEST(SceneTrial, KeepsThePicturesOfTheStepsWithTheMostMisses) {
   for (std::size_t step = 0; step < 8; ++step) {
     Mesh mesh;
     std::vector<Eigen::Vector3d> end;
-    // In step n, n vertices fall through a triangle, the first of them through an edge.
+    // In step n, n vertices fall through a triangle. The first of these vertices also falls through an edge.
     mesh.points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
     mesh.triangles = {{0, 1, 2}};
     for (std::size_t i = 0; i < step; ++i) mesh.points.push_back({0.1 * static_cast<double>(i), 1, 1});

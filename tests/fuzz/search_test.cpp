@@ -28,7 +28,7 @@ TEST(MissSearch, FindsDefects) {
   EXPECT_TRUE(finds_miss("defect:vv", 20));
   EXPECT_TRUE(finds_miss("defect:D2*0.1", 20));
   EXPECT_TRUE(finds_miss("defect:ve-zero", 20));
-  EXPECT_TRUE(finds_miss("basic", 20));  // has no needed_tolerance()
+  EXPECT_TRUE(finds_miss("basic", 20));  // although basic has no needed_tolerance()
 }
 
 TEST(MissSearch, ShowsCollisionsThatNeedMostOfTheTolerance) {
@@ -84,9 +84,9 @@ void expect_far(const Subject& subject, double wanted, std::uint64_t searches) {
   EXPECT_GT(ratio, wanted);
 }
 
-// In float, the claimed bound is 0.76 times the pair's size B, so the primitives of far false positives are
-// nearly separated by many of the planes that culling tests. In a fine scalar, the bound is tiny, and the
-// search must make primitives as small as the bound.
+// In float, the claimed bound is large: 0.76 times the pair's size B. If the primitives of a false positive
+// are nearly this far apart, many of the planes that culling tests nearly separate them. In a fine scalar,
+// the bound is tiny, and the search must make primitives as small as the bound.
 TEST(FarSearch, ComesNearTheBoundPastPlaneCullingAndInFineScalars) {
   expect_far(*make_any_subject("wang:float"), 0.8, 40);
   expect_far(*make_any_subject("wang-tight:p112"), 0.9, 10);

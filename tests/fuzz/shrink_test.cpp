@@ -71,7 +71,7 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
     EXPECT_FALSE(complexity(finding.query) < after);
     Finding again = finding;
     again.query = shrunk;
-    // The shrunk query is already the simplest.
+    // A second shrinking finds no simpler query.
     EXPECT_EQ(shrunk_query(again, basic.get()), shrunk) << finding.provenance;
     distinct.push_back(after.distinct);
     hash.add_all(shrunk.x);
@@ -80,8 +80,8 @@ TEST(Shrink, QueriesThatBasicMissesBecomeSimple) {
       << std::hex << hash.value();  // the shrunk queries are the same as when this hash was recorded
   std::sort(distinct.begin(), distinct.end());
   EXPECT_LE(distinct[distinct.size() / 2],
-            // Most shrunk queries have few distinct numbers; before shrinking, all queries except coplanar
-            // ones have about 20.
+            // After shrinking, most queries have few distinct numbers. Before shrinking, all queries except
+            // coplanar ones have about 20.
             4);
 }
 
@@ -90,7 +90,7 @@ TEST(Shrink, KeepsOnlyWhatMatters) {
   ASSERT_GT(query.x[3], 0.25);
   const Query shrunk = shrunk_while(query, [](const Query& q) { return q.x[3] > 0.25; });
   Query expected{.kind = query.kind};
-  expected.x[3] = expected.x[12 + 3] = 1;  // along this axis, the vertex does not move
+  expected.x[3] = expected.x[12 + 3] = 1;  // x1 stays at (1, 0, 0), the others at the origin
   EXPECT_EQ(shrunk, expected);
 }
 
@@ -183,7 +183,8 @@ TEST(Shrink, AsksASlowSubjectAFewTimesOnly) {
   finding.signature = "vt";
   asked = 0;
   shrunk_query(finding, &late, Stop::never(),
-               // The subject is asked batches of 1, 2 and 4 small queries, and the query of the finding.
+               // Within this time, the shrinker can ask batches of 1, 2 and 4 small queries, and the query of
+               // the finding.
                {.time = 12 * takes});
   EXPECT_GE(asked, 1);
   EXPECT_LE(asked, 1 + 2 + 4 + 1);
@@ -215,7 +216,7 @@ TEST(Shrink, AsksASlowSubjectTheSameAsAFastOneAndNotForEver) {
 
 TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   const auto basic = make_subject("basic");
-  // For each call, the number of its queries, and whether the call took too long.
+  // For each call of the subject: the number of queries in the call, and whether the call took too long.
   std::vector<std::pair<std::size_t, bool>> calls;
   const auto hang_at_zero = [&](std::span<const Query> queries, std::span<Verdict> verdicts) {
     bool is_slow = false;
@@ -233,8 +234,8 @@ TEST(Shrink, EndsASearchAtAHangAndAsksOneByOneFromThenOn) {
   for (Finding finding : missed_by_basic()) {
     shrinker.shrink(finding);
     EXPECT_TRUE(finding.is_shrunk);
-    // One search in all classes, one search in the finding's own class, and one in the list of small queries
-    // of each kind.
+    // For each finding, the shrinker makes one search in all classes, one search in the finding's own class,
+    // and one search in the list of small queries of each kind.
     searches += 2 + kinds_of_meshes.size();
   }
   const auto is_slow = [](const auto& call) { return call.second; };

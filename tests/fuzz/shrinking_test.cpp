@@ -1,5 +1,5 @@
-// Findings are shrunk while their campaign runs, findings of ordinary queries first. No query waits for the
-// shrinker.
+// Findings are shrunk while their campaign runs, and those of ordinary queries come first. No query of the
+// campaign waits for the shrinker.
 #include "fuzz/trial/shrinking.hpp"
 
 #include <gtest/gtest.h>
@@ -25,14 +25,15 @@ namespace {
 using testing::falling_vertex;
 using testing::one;
 
-/// The findings of the first subject on edge-edge queries of `planted-ulp`: the collisions that it misses.
+/// The findings of the first subject on edge-edge queries of the family `planted-ulp`. Each finding is a
+/// collision that the subject misses.
 std::vector<Finding> missed(const Subjects& subjects) {
   std::vector<Query> queries;
   for (std::uint64_t i = 1; i < 500; i += 2) queries.push_back(make_query(find_family("planted-ulp"), 1, i));
   return hold_trial(subjects, testing::batch_of("planted-ulp", queries)).findings;
 }
 
-/// The given findings after shrinking; only those that FirstFindings keeps are shrunk.
+/// The given findings after shrinking. Findings that FirstFindings does not keep come back unshrunk.
 std::vector<Finding> after_shrinking(const Subjects& subjects, std::vector<Finding> findings,
                                      const Stop& stop = Stop::never(), bool shrinks = true) {
   Shrinking shrinking(subjects, 2, stop, shrinks);
@@ -139,8 +140,8 @@ class Patient final : public ForwardingSubject {
   mutable std::size_t left_;
 };
 
-/// The shrinker waits for `Patient`, until all queries of the campaign are answered. If a query also waited
-/// for the shrinker, this test would never end.
+/// The shrinker waits for `Patient`, until all queries of the campaign are answered. If a query of the
+/// campaign also waited for the shrinker, this test would never end.
 TEST(Shrinking, NoQueryOfACampaignWaitsForIt) {
   CampaignPlan plan;
   plan.families = {find_family("planted-ulp")};

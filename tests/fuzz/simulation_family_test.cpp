@@ -17,7 +17,8 @@ namespace {
 
 using QueryCoordinates = std::array<double, 24>;
 
-/// The pairs about which a simulation asks its CCD, `exact`, if it runs as in `nearmiss simulate`.
+/// The pairs about which a simulation asks its CCD. The simulation runs as in `nearmiss simulate`, with the
+/// CCD `exact`.
 std::set<QueryCoordinates> pairs_asked(const std::string& scene) {
   const Subjects subjects = testing::subjects_named({"exact"});
   Trials trials(subjects, {}, 1, Stop::never(), false, [](TrialResult&&) {});

@@ -101,7 +101,8 @@ TEST(SmallQueries, AreLeftIfTooManyProcessesEnd) {
   });
   EXPECT_EQ(shrunk_query(missed(Kind::edge_edge), &crashing, Stop::never(), limits_in_campaign),
             missed(Kind::edge_edge).query);
-  // Batches with 63 faulty answers in all, and then the query of the finding.
+  // The shrinker asks batches of 1 to 32 queries, and gives up after 63 faulty answers. It also asks the
+  // query of the finding.
   EXPECT_EQ(asked, 1 + 2 + 4 + 8 + 16 + 32 + 1);
 }
 

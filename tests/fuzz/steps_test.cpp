@@ -120,7 +120,7 @@ TEST(StepTrial, FindsEveryPlantedDefect) {
   const auto right = measured(0, 2000);
   for (int number = 1; number <= defects; ++number) {
     const auto results = measured(number, 2000);
-    // A step that is filtered with this defect is safe, but moves the primitives less.
+    // With this defect, the filtered step is still safe, but moves the primitives less than it could.
     if (number == stops_what_moves_away) {
       EXPECT_FALSE(results.has_failed());
       EXPECT_GT(kept(results), kept(right));

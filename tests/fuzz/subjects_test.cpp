@@ -1,4 +1,4 @@
-// Subjects by name, and the oracle as one of them.
+// Tests how subjects are found by name, and the oracle as a subject.
 #include "fuzz/subjects/subjects.hpp"
 
 #include <gtest/gtest.h>

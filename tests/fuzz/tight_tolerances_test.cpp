@@ -55,8 +55,8 @@ CgalInterval longest_short_edge(const Tolerances<CgalInterval>& tol,
 
 void expect_constraints(const Tolerances<CgalInterval>& tol, const CgalInterval& eps, int exponent) {
   const auto errors = full_errors(eps, tol.S, tol.rho);
-  // The constraints need to hold only for some length E, so the test takes the lower end of the interval of
-  // the largest E.
+  // It is enough that the constraints hold for one length E. The test takes the lower end of the interval
+  // that encloses the largest allowed E.
   const CgalInterval E = longest_short_edge(tol, errors).inf();
   for (const auto& each : constraints(tol, E, E, errors))
     EXPECT_GE(each.more.inf(), each.less.sup()) << each.about << " for 2^" << exponent;
@@ -70,8 +70,8 @@ void expect_constraints_as_computed() {
     expect_constraints(enclosed(T(B)), CgalInterval(std::ldexp(1.0, exponent)), exponent);
 }
 
-// Checks each constraint rigorously, in interval arithmetic, including rounding errors of the computed
-// tolerances.
+// Checks each constraint rigorously in interval arithmetic. The check includes the rounding errors of the
+// computed tolerances.
 TEST(TightTolerances, SatisfyTheConstraintsAsTheyAreComputed) {
   expect_constraints_as_computed<BinaryFloat<11>>();
   expect_constraints_as_computed<BinaryFloat<12>>();
@@ -153,7 +153,7 @@ double lowest_D2(int exponent) {
 TEST(TightTolerances, AreTheSmallestThatAnotherOptimiserFinds) {
   for (const int exponent : {-10, -16, -23, -36, -52, -104}) {
     const double ratio = lowest_D2(exponent) / solve_tight(exponent).D2;
-    const double rounding = 64 * std::ldexp(1.0, exponent);  // the slack of our tolerances
+    const double rounding = 64 * std::ldexp(1.0, exponent);  // the slack in the tolerances that we computed
     EXPECT_LT(ratio, 1 + 1e-5) << exponent;
     EXPECT_GT(ratio, 1 - 1e-5 - rounding) << exponent;
   }

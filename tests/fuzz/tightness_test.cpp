@@ -1,4 +1,5 @@
-// Measures the tightness of known tolerances: how much smaller they could be.
+// Tests the study of tightness, which measures by what factor a tolerance must change until a collision is
+// missed.
 #include "fuzz/studies/tightness.hpp"
 
 #include <gmock/gmock.h>

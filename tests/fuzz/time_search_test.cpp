@@ -16,7 +16,8 @@ namespace {
 
 using testing::MadeUpSubject;
 
-/// The oracle as a subject, but with alter(query, verdict) in place of its verdict on a query.
+/// A subject that decides a query as the oracle does, but then gives alter(query, verdict) in place of the
+/// oracle's verdict.
 template <class Answer>
 MadeUpSubject altered(const Answer& alter, double bound = HUGE_VAL) {
   const std::shared_ptr<Subject> exact = make_any_subject("exact");
@@ -35,7 +36,7 @@ double off(const Query& query, double time) {
 
 constexpr double region = 0x1p-10;
 
-/// A subject whose times are late only where off() < region, by at most 0.1 * region.
+/// A subject whose times are late only if off() < region. Then they are late by at most 0.1 * region.
 MadeUpSubject late_in_a_region() {
   return altered([](const Query& query, Verdict verdict) {
     if (verdict.hit) verdict.time += 0.1 * (region - off(query, verdict.time)) * std::min(verdict.time, 1.0);

@@ -13,7 +13,7 @@
 namespace nearmiss {
 namespace {
 
-/// The counters of each kind over `count` queries of a family, with seed 3.
+/// The counters of each kind, after a trial with `count` queries that a family makes from seed 3.
 std::vector<Counts> counts_of(const std::string& subject, const Family& family, std::uint64_t count) {
   const Subjects subjects = testing::one(make_any_subject(subject));
   std::vector<Counts> found;

@@ -139,9 +139,9 @@ TEST(Trial, AnAnswerThatDependsOnWhatWasAskedBeforeIsAFault) {
   EXPECT_EQ(counts_of(hold_trial(one(make_subject("wang")), many)).faults_total(), 0);
 }
 
-// A query's number, and so its place in a batch, does not depend on the seed. If a trial chose its samples by
-// the numbers of queries only, the samples would have the same places for every seed, and the answers at all
-// other places would never be checked.
+// A query's number, and so its place in a batch, does not depend on the seed. Suppose that a trial chose its
+// samples only by the numbers of queries. Then the samples would have the same places in the batch for every
+// seed, and the answers at all other places would never be checked.
 TEST(Trial, AnAnswerThatDependsOnThePlaceInABatchIsAFault) {
   const Family family = find_family("uniform-slow");
   for (const std::size_t wrong : {0, 12}) {

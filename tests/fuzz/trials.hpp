@@ -1,4 +1,4 @@
-// Subjects and batches of a trial.
+// Makes the lists of subjects and the batches of queries that trials take.
 #pragma once
 
 #include <initializer_list>

@@ -13,8 +13,8 @@ using ::testing::ElementsAre;
 TEST(UnitsFamily, NamesTheFactorByWhichItsAnswersAreCounted) {
   EXPECT_THAT(factors_of(find_family("units@-9"), 1, 5), ElementsAre("edge=2^-9"));
   EXPECT_THAT(factors_of(find_family("v-distant@20~drawn"), 1, 5), ElementsAre("distance=2^20"));
-  // If the family's parameter has no fixed value, the factor has the value of the parameter that is drawn for
-  // the query.
+  // If the family's parameter has no fixed value, a value is drawn for each query, and the factor has this
+  // value.
   const Family units = find_family("units");
   for (std::uint64_t i = 0; i < 50; ++i) {
     const std::string factor = factors_of(units, 1, i).at(0);

@@ -117,7 +117,8 @@ Batch batch_at(const std::vector<double>& places, Kind kind = Kind::vertex_trian
   return testing::batch_of("f", queries);
 }
 
-// v1 reports queries with x > 0; v2, with x > 0.25 or x < -0.5. All queries are collisions.
+// v1 reports queries with x > 0, and v2 reports queries with x > 0.25 or x < -0.5. All queries are
+// collisions.
 TEST(Versions, AreComparedOnTheQueriesThatBothWereAsked) {
   const Subjects subjects = made_of({plugin("v1"), plugin("v2"), plugin("v3"), "wang"});
   const auto result = hold_trial(subjects, batch_at({1, 0.5, 0.125, -0.25, -0.25, -1}));

@@ -51,8 +51,8 @@ TEST_P(VertexFamilies, NothingWithinHIsMissedAndNothingBeyondTheBoundReported) {
 /// Encloses the number that was rounded to x.
 Interval enclosure(double x) { return {std::nextafter(x, -HUGE_VAL), std::nextafter(x, HUGE_VAL)}; }
 
-/// Expects that tolerances computed for the bound B satisfy the constraints: those for ve if `of_edge` is
-/// true, otherwise those for vv.
+/// Expects that the tolerances `computed`, for the bound B, satisfy the constraints for ve if `of_edge` is
+/// true, and the constraints for vv otherwise.
 void expect_constraints(const Tolerances<double>& computed, double B, bool of_edge) {
   const Interval b(B);
   Tolerances<Interval> tol;
@@ -134,8 +134,8 @@ TEST(TolerancesOfVertices, AGivenBReplacesThePairs) {
   EXPECT_REFUSED(make_subject("wang-plain@1e-9")->decide(query), "is smaller than a pair's own");
 }
 
-// Tests wang's bounds for primitives with the smallest coordinates, and for a given B that the scalar cannot
-// represent.
+// Tests the bounds that wang claims in narrow scalars: for primitives with the smallest coordinates, and for
+// a given B that the scalar cannot represent.
 TEST(TolerancesOfVertices, BoundsOfNarrowScalarsHoldAtTheEndsOfTheRange) {
   for (const char* name : {"wang:float", "wang-tight:float", "wang:p16", "wang-tight:dd"}) {
     const auto subject = make_any_subject(name);

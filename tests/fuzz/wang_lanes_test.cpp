@@ -1,5 +1,5 @@
-// wang in lanes (several queries at once) gives the same verdicts, bit for bit, as wang for one query at a
-// time. To test more queries, such as 10^8:
+// In lanes, wang decides several queries at once. Its verdicts must be the same, bit for bit, as those of
+// wang for one query at a time. To test more queries, such as 10^8:
 //   NEARMISS_QUERIES=2300000 fuzz_tests --gtest_filter='*InLanes*'
 #include <gtest/gtest.h>
 
@@ -64,8 +64,8 @@ Answer answer_of(const Decide& decide) {
   }
 }
 
-/// The answers of wang with the bound `given`. Every pair that no plane separates is decided by
-/// wang_careful(), which is meant for pairs that may need another scale.
+/// The answers of wang with the bound `given`. wang_careful() decides every pair that no plane separates,
+/// although wang itself calls wang_careful() only for pairs that may need another scale.
 std::vector<Answer> careful(std::span<const Query> queries, double given) {
   const auto decide = [&]<Kind kind>(const Query& query) {
     if (separated_by_plane<kind>(query)) return Verdict::rejected(Rejection::planes);
@@ -79,8 +79,8 @@ std::vector<Answer> careful(std::span<const Query> queries, double given) {
 }
 
 /// Bounds B to give to wang. Some are at or beyond an end of the range in which no scaling is needed. The
-/// others are made from the queries' own bounds: the largest and some others, each multiplied by a factor
-/// from 1 to 2^60, and doubles just below some of these bounds.
+/// others are made from the queries' own bounds: some multiply the largest own bound, or another one, by a
+/// factor from 1 to 2^60; others are the doubles just below an own bound.
 std::vector<double> bounds_for(std::span<const Query> queries) {
   constexpr double most = std::numeric_limits<double>::max();
   std::vector<double> own;

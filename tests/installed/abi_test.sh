@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Checks that programs compiled with an earlier minor version keep working: the library must have all
-# functions and types in oracle/interface/nearmiss.abi, and all constants in constants.txt, unchanged. It may
-# have more.
+# Checks that programs compiled with an earlier minor version keep working. For this, the library
+# must have all functions and types in oracle/interface/nearmiss.abi, and all constants in
+# constants.txt, unchanged. The library may also have new ones.
 # Usage: abi_test.sh [--write] LIBRARY, which has debug information
 #   --write  replaces both files after an addition; any other change needs a new major version
 set -euo pipefail

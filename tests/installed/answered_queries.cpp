@@ -1,5 +1,5 @@
-// Writes queries of all families of vt and ee, and the answers of this source tree, to standard output, in
-// the format that answers.cpp reads.
+// Writes queries of the kinds vt and ee from all families, with the answers of this source tree, to standard
+// output. The format is the one that answers.cpp reads.
 // Usage: answered_queries COUNT SEED
 #include <algorithm>
 #include <cstdio>

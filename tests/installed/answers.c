@@ -15,7 +15,7 @@ static void expect(int holds, const char* what) {
 
 static void expect_status(int status, int expected) { expect(status == expected, nearmiss_message(status)); }
 
-/* One vertex falls through a triangle at t = 1/2; another comes no nearer to its triangle than 1. */
+/* One vertex falls through a triangle at t = 1/2. Another vertex stays at a distance of at least 1. */
 static void check_answers(void) {
   double x[48] = {.25, .25, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, .25, .25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0,
                   .25, .25, 2, 0, 0, 0, 1, 0, 0, 0, 1, 0, .25, .25, 1,  0, 0, 0, 1, 0, 0, 0, 1, 0};

@@ -1,5 +1,5 @@
-// Asks an installed nearmiss through its C++ interface, in several layouts and from several threads, and
-// compares its answers with those on standard input. The input has blocks, each with queries of one kind:
+// Asks an installed nearmiss through its C++ interface, in several layouts and from several threads. Compares
+// the answers with those on standard input. The input has blocks, each with queries of one kind:
 //
 //     int32 kind, n, timed
 //     double x[n][2][4][3], h[n]
@@ -98,8 +98,8 @@ void ask_in_all_layouts(const Block& block) {
   const std::size_t n = block.n;
   ask(Queries::packed(block.kind, block.x), block, "packed");
 
-  // A mesh whose primitives share no vertex. A vertex takes the space of four numbers instead of three, and
-  // the vertices are in another order than in the queries.
+  // Passes the queries as a mesh whose primitives share no vertex. A vertex takes the space of four numbers
+  // instead of three, and the vertices are in another order than in the queries.
   std::vector<double> start(16 * n), end(16 * n);
   std::vector<std::int32_t> vertices(4 * n);
   for (std::size_t v = 0; v < 4 * n; ++v) {
@@ -113,7 +113,7 @@ void ask_in_all_layouts(const Block& block) {
   mesh.layout().vertex_stride = 4 * sizeof(double);
   ask(mesh, block, "mesh");
 
-  // The queries as a structure of arrays: [2][4][3][n].
+  // Passes the queries as a structure of arrays: [2][4][3][n].
   std::vector<double> turned(24 * n);
   for (std::size_t q = 0; q < n; ++q)
     for (std::size_t c = 0; c < 24; ++c) turned[c * n + q] = block.x[24 * q + c];

@@ -1,4 +1,5 @@
-// Calls the oracle as a contact code calls its CCD, with types of points that contact codes use.
+// Calls the oracle in the way in which a contact code calls its CCD, and with the types of points that
+// contact codes use.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -39,7 +40,7 @@ int main() {
          "does not meet before 0.5");
   expect(!ccd.point_triangle_ccd(above, a, b, c, above, a, b, c, toi), "does not move");
 
-  // The exact time is 1/3, which is no double.
+  // The exact time is 1/3, which is not a double.
   const Point high{0.25, 0.25, 1}, low{0.25, 0.25, -2};
   expect(ccd.point_triangle_ccd(high, a, b, c, low, a, b, c, toi) && toi == 1. / 3, "at 1/3");
   const double before = toi, after = std::nextafter(toi, 1.0);

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Tests the packages in a fresh Debian of this machine's release. Installs them, builds and runs users'
 # programs with them, and puts CCDs on trial. Removes the packages again, and checks that no file is left.
-# Then builds and installs the library from its sources, with only the packages that the library needs. Takes
-# ten minutes, and needs root, mmdebstrap, and Debian's mirror.
+# Then installs the packages that the library needs, and builds and installs the library from its
+# sources. Takes ten minutes, and needs root, mmdebstrap, and Debian's mirror.
 # Usage: debian_test.sh PACKAGES BUILD, the folders of the packages (tools/package) and of a build with tests
 #        (tools/setup)
 set -euo pipefail

@@ -89,7 +89,7 @@ for wanted in "2 COMPONENTS oracle" "1 COMPONENTS oracle fortran"; do
 done
 grep -q 'The component fortran is not installed in' "$folder/log" || fail "$(cat "$folder/log")"
 
-# An absolute installation folder is used as it is, without the prefix.
+# If the user gives an absolute installation folder, it is used as it is, without the prefix.
 quietly cmake -S "$here/../.." -B "$folder/absolute" -DNEARMISS_COMPONENTS=oracle -DCMAKE_INSTALL_LIBDIR=/a/lib -DCMAKE_INSTALL_INCLUDEDIR=/b/include
 PKG_CONFIG_PATH=$folder/absolute/install pkg-config --cflags --libs nearmiss >"$folder/log"
 grep -q -- '-I/b/include -L/a/lib -lnearmiss' "$folder/log" || fail "$(cat "$folder/log")"
@@ -107,13 +107,13 @@ quietly cmake -S "$here" -B "$folder/subdirectory" -DNEARMISS_SOURCE="$here/../.
 quietly cmake -S "$here/../.." -B "$folder/plain"
 ! grep -qE '^(SQLite|TBB|GTest|NLopt|CLI11)' "$folder/plain/CMakeCache.txt" || fail "a plain build looks for libraries of the tools"
 
-# A build of the component trial without the tools defines the macros that its files need.
+# A build of only the component `trial` defines the macros that its files need.
 quietly cmake -S "$here/../.." -B "$folder/only_trial" -DNEARMISS_COMPONENTS=trial
 for each in 'NEARMISS_INSTALLED=.*supervisor.cpp' 'NEARMISS_INSTALLED=.*peers.cpp' 'NEARMISS_WORKER_CODE=.*supervisor.cpp'; do
   grep -q "$each" "$folder/only_trial/compile_commands.json" || fail "a build of only the trial has no $each"
 done
 
-# A build of the templates alone needs only Eigen, and compiles nothing.
+# A build of only the templates needs no library except Eigen, and compiles nothing.
 quietly cmake -S "$here/../.." -B "$folder/headers" -DNEARMISS_COMPONENTS=ccd -DCMAKE_DISABLE_FIND_PACKAGE_CGAL=ON \
   -DCMAKE_DISABLE_FIND_PACKAGE_Boost=ON
 quietly cmake --install "$folder/headers" --prefix "$folder/only"

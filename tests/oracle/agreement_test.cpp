@@ -87,8 +87,8 @@ TEST(Agreement, TheFilterContradictsATie) {
             "at most h (no: filter; yes: first)");
 }
 
-// The decision claims a tie, but the smallest distance is not exactly h. The test asks no method, so no
-// method contradicts the decision.
+// The decision wrongly claims a tie: the smallest distance is not exactly h. The test asks no method, so no
+// method contradicts the decision. But a tie needs a proof, and there is none.
 TEST(Agreement, AWrongDecisionIsNotProved) {
   const Query far = with_separation(miss, 0.5);  // the smallest distance of `miss` is 1
   const Query near = with_separation(miss, 2);
@@ -103,7 +103,7 @@ TEST(Agreement, AWrongDecisionIsNotProved) {
 TEST(Agreement, ATieAtTheLargestDoubleNeedsNoProofAboveIt) {
   constexpr double M = std::numeric_limits<double>::max();
   // The triangle is degenerate: it is a segment. When 2 t² = 1, the distance between the vertex and the
-  // segment is exactly M, the largest double. At all other times, it is larger.
+  // segment is exactly M, the largest double. At all other times, the distance is larger.
   const Query tie{.kind = Kind::vertex_triangle,
                   .x = {0,  -.5, M, -1, 0,  0, 1, 0, 0, -1, 0,  0,  //
                         -1, -.5, M, -1, -1, 0, 1, 1, 0, -1, -1, 0},

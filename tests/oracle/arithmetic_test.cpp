@@ -1,5 +1,5 @@
 // The oracle gives the same answers in every rounding mode of its caller, even if the processor treats
-// subnormal numbers as zero. It then restores the caller's mode.
+// subnormal numbers as zero. After each call, the caller's mode is restored.
 #include <gtest/gtest.h>
 
 #include <vector>

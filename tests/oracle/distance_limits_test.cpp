@@ -63,7 +63,7 @@ TEST(DistanceInUnits, IsRoundedOutward) {
 }
 
 TEST(ClosestRatio, IsFiniteWhereOnlyExactComparisonsResolveALargeDistance) {
-  // The query's smallest distance equals the unit that closest_ratio() gets, up to rounding.
+  // closest_ratio() gets a unit that equals the query's smallest distance, up to rounding.
   const Query query{.kind = Kind::edge_edge,
                     .x = {0x1.50d02ca487f8ep-1,     -0x1.1c97712306c4bp-1,    -0x1.bac235c6917c2p+1023,
                           0x1.fffffffffffffp+1023,  0x1.0355da996823ap+1021,  -0x1.fffffffffffffp+1023,

@@ -124,7 +124,7 @@ TEST(ComesWithin, AgreesWithEnclosures) {
     const Query query =
         i < 100 ? testing::uniform_query(random, kind) : testing::integer_query(random, kind, 3);
     SCOPED_TRACE(testing::repeat(i, query));
-    // The primitives of these queries either meet, or stay farther apart than 2^-1074.
+    // In these queries, the primitives meet or stay farther apart than 2^-1074.
     EXPECT_EQ(comes_within(query, 0x1p-1074), collides(query));
     EXPECT_EQ(comes_within(query, 0), collides(query));
     if (collides(query)) continue;
@@ -136,8 +136,8 @@ TEST(ComesWithin, AgreesWithEnclosures) {
   }
 }
 
-// Decisions examine the times at which the distance is the separation h. SmallestDistance examines the times
-// at which the distance is smallest.
+// A decision examines the times at which the distance equals the separation h, but SmallestDistance examines
+// the times at which the distance is smallest. Their answers must agree.
 TEST(SmallestDistance, IsComparedAsDecisionsAre) {
   int at_most = 0;
   int compared = 0;

@@ -1,5 +1,5 @@
-// Compares the error bounds of double words and of products with exact arithmetic. tests/proofs/ proves all
-// other error bounds.
+// Checks the error bounds of operations on double words, and the error bound of a cross product.
+// tests/proofs/ proves all other error bounds.
 #include <gtest/gtest.h>
 
 #include <algorithm>

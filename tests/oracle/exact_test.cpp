@@ -51,8 +51,8 @@ TEST(Exact, AnEdgeFallsOntoAnEdge) {
 }
 
 /// An edge at rest along the x axis, and a second edge in the plane x = 0. One end of the second edge has y =
-/// -(1 + t) and z = g + 4 - 8 t, the other end y = 2 - t and z = g + 8 t - 4. So the second edge passes above
-/// the first one at the height (16 t² - 16 t + 4 + 3 g) / 3.
+/// -(1 + t) and z = g + 4 - 8 t. The other end has y = 2 - t and z = g + 8 t - 4. So the second edge passes
+/// above the first edge at the height (16 t² - 16 t + 4 + 3 g) / 3.
 Query swinging_edge(double g) {
   return make_query(Kind::edge_edge, {{-1, 0, 0}, {1, 0, 0}, {0, -1, 4 + g}, {0, 2, -4 + g}},
                     {{-1, 0, 0}, {1, 0, 0}, {0, -2, -4 + g}, {0, 1, 4 + g}});

@@ -33,8 +33,8 @@ TEST(Explanation, CountsTheTimesAtWhichTheVerticesAreCoplanar) {
 }
 
 TEST(Explanation, SaysWhetherRootParitySeesTheContact) {
-  // The plane of the triangle is z = s x, with s = 2t - 1. The vertex has x = 2t - 1 and z = 1/4, and thus
-  // meets the plane at t = 1/4 and t = 3/4, both times inside the triangle.
+  // The plane of the triangle is z = s x, with s = 2t - 1. The vertex has x = 2t - 1 and z = 1/4. So the
+  // vertex meets the plane at t = 1/4 and at t = 3/4, and is inside the triangle at both times.
   const Query twice = make_query(Kind::vertex_triangle, {{-1, 0, 0.25}, {-4, -4, 4}, {4, -4, -4}, {0, 8, 0}},
                                  {{1, 0, 0.25}, {-4, -4, -4}, {4, -4, 4}, {0, 8, 0}});
   EXPECT_EQ(explain(twice), (Explanation{.roots = 2, .contact = Contact::inside, .unseen_by_parity = true}));

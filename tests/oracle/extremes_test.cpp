@@ -148,8 +148,8 @@ TEST(Extremes, AllCoordinatesEqual) {
     }
 }
 
-// If the oracle scaled these coordinates by a power of two, they could fall between the largest subnormal
-// number and the smallest normal number, where there is no double.
+// If the oracle scaled these coordinates by a power of two, a result could lie between the largest subnormal
+// number and the smallest normal number. These are neighbouring doubles, so the result would be rounded.
 TEST(Extremes, CoordinatesThatAreRoundedToTheSmallestNormalNumber) {
   for (int exponent = -1026; exponent <= -1014; ++exponent) {
     const double z = std::ldexp(1.0, exponent);
@@ -177,7 +177,7 @@ TEST(Extremes, RootsOfEveryMultiplicity) {
   expect_collision(triple, true);
   EXPECT_EQ(testing::count_roots(triple).with_multiplicity, 3);
   EXPECT_EQ(earliest_time(triple)->rational(), "1/2");
-  // The triangle of `triple`, with a vertex that moves away from the origin.
+  // The triangle moves as in `triple`, but the vertex moves away from the origin.
   Query missed = triple;
   for (int k = 0; k < 3; ++k) missed.x[static_cast<std::size_t>(12 + k)] = 1;
   expect_consistent(missed);

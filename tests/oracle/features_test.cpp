@@ -1,5 +1,5 @@
-// Compares features of the first contact with features found by hand, and with the roots of F, which are the
-// times at which the vertices are coplanar.
+// Compares features of the first contact with features that were found by hand. Also compares them with the
+// roots of F, which are the times at which the vertices are coplanar.
 #include "oracle/features.hpp"
 
 #include <gtest/gtest.h>

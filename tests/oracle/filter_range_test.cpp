@@ -99,8 +99,8 @@ Query planar_edges(double size) {
 }
 
 /// A contact. The coordinates along one axis are small. The weights' components along this axis are sums of
-/// products of the other coordinates, so if `size` is 2^511, their middle coefficients overflow. F does not
-/// overflow.
+/// products of the other coordinates. So the middle coefficients of these components overflow if `size` is
+/// 2^511. F does not overflow.
 Query flat_vertex(double size) {
   return make_query(Kind::vertex_triangle, {{0, 0, 1}, {0, 0, size}, {0, 1, 0}, {1, -2 * size, 0}},
                     {{0, 2.5, 1}, {0, 0, -1.5 * size}, {0, 1, 0}, {1, size, 0}});
@@ -127,7 +127,7 @@ Query thin_edges(double size) {
                     {{0, 0.5, 1.5 * size}, {size / 8, 0x1.8p-6, 0}, {0, 0, size / 32}, {1.5 * size, 0.5, 0}});
 }
 
-/// The queries above in which sums of products overflow.
+/// All queries of the functions above in which sums of products overflow.
 std::vector<Named> overflowing() {
   return {{"crossing edges", scaled(crossing_edges(), 0x1p340)},
           {"two far points", two_far_points(0x1p511)},
@@ -142,7 +142,7 @@ TEST(FilterRange, IsRightWhereSumsOfProductsOverflow) {
   for (const Named& named : overflowing()) expect_right(named);
 }
 
-// Only F's change of sign could show these collisions, and F is unknown, because it overflows.
+// Only a change of F's sign could show these collisions. But F overflows, so its sign is unknown.
 TEST(FilterRange, LeavesACollisionUndecidedWhereFOverflows) {
   expect_undecided({"crossing edges", scaled(crossing_edges(), 0x1p340)});
   expect_undecided({"two far points", two_far_points(0x1p511)});
@@ -165,7 +165,7 @@ TEST(FilterRange, DecidesWhereNothingIsNearOverflow) {
     }
 }
 
-// The products of which F is the sum are about 2^(3 exponent), and the error bound of F is at least 2^-1060.
+// F is a sum of products, which are about 2^(3 exponent). The error bound of F is at least 2^-1060.
 TEST(FilterRange, LeavesWhereFUnderflows) {
   for (const auto& [name, query] : plain_collisions())
     for (const int exponent : {-358, -360, -500, -537, -1000, -1060, -1074})

@@ -1,5 +1,5 @@
-// The filter never gives a wrong answer, and decides the queries that it should. It gives a query the same
-// answer by itself and among many queries.
+// The filter never gives a wrong answer, and decides the queries that it should. A query gets the same answer
+// from the filter whether it is asked alone or among many queries.
 #include "oracle/filter/filter.hpp"
 
 #include <gmock/gmock.h>
@@ -136,9 +136,9 @@ TEST(BatchFilter, ComparesBoxesAsBeforeTheFilterOfOneQuery) {
   EXPECT_LT(apart, queries.size() / 2);
 }
 
-// With worse guesses of where to look for contact, the filter would still be right, but would leave more
-// queries to exact arithmetic, which is slow. The limit is close to the number of queries that the filter
-// leaves undecided now.
+// The filter guesses where to look for contact. With worse guesses, it would still be right, but would leave
+// more queries to exact arithmetic, which is slow. The limit is slightly above the number of queries that the
+// filter leaves undecided.
 TEST(Filter, LeavesAsFewQueriesAsItDid) {
   std::vector<FilterStage> stages;
   for (const Query& query : hard_queries(5, 50000)) stages.push_back(filter(query));

@@ -32,8 +32,8 @@ Truth truth(const Query& query, double h) {
   return decision.collision ? Truth::below : decision.is_tie ? Truth::tie : Truth::above;
 }
 
-/// The enclosure of t*, the first time with the distance h, as text: one number if t* is known exactly,
-/// otherwise two. "never" if the distance is always above h.
+/// The enclosure of t* as text, where t* is the first time at which the distance is h. The text has one
+/// number if t* is known exactly, and otherwise two. It is "never" if the distance is always above h.
 std::string first_time(const Query& query, double h) {
   auto time = earliest_time(with_separation(query, h));
   if (!time) return "never";
@@ -49,8 +49,8 @@ TEST(Separation, IsReachedWhenThePrimitivesAreHApart) {
   EXPECT_EQ(first_time(falling_edge(1, -1), 2), "0.000000");
 }
 
-// Certified bounds show that the distance is above h up to the double before t = 1. The bounds cannot show
-// that the distance is h at t = 1.
+// Certified bounds show that the distance is above h up to the last double before t = 1. But these bounds
+// cannot show that the distance is exactly h at t = 1.
 TEST(Separation, ThatIsReachedAtTheEndOfTheStepIsReachedAtOne) {
   for (const double start : {1e2, 1e6, 1e12}) {
     EXPECT_EQ(first_time(falling_vertex(0.25, 0.25, start, 1), 1), "1.000000") << start;

@@ -11,8 +11,8 @@
 namespace nearmiss::testing {
 
 /// Makes numbers and queries that are difficult for rounding: with very different magnitudes, with
-/// cancellation, with few bits or with all bits. All of them depend only on the seed and the index of the
-/// case.
+/// cancellation, with few bits or with all bits. All numbers and queries depend only on the seed and the
+/// index of the case.
 class Hard : public Random {
  public:
   Hard(std::uint64_t seed, std::size_t index) : Random(seed, 0, index) {}

@@ -160,7 +160,7 @@ TEST(InterfaceCertificate, IsCutOffAsBySnprintf) {
   }
 }
 
-/// The edges pass each other at a distance that is tiny compared with their lengths.
+/// Two edges pass each other at a distance that is tiny compared with their lengths.
 TEST(InterfaceCertificate, IsAsLongAsItMustBe) {
   constexpr std::array x{1., -2., -0x1p1022, -2., -3., -0x1p1023, 0., 1., -0x1p1023, 2., -2., 0x1p1022,
                          1., 2.,  -0x1p1023, 3.,  -3., -0x1p1023, 0., 1., -0x1p1023, 3., -2., 0x1p1022};

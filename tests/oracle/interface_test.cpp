@@ -31,7 +31,7 @@ constexpr std::array<double, 24> falling{0.25, 0.25, 1,  0, 0, 0, 1, 0, 0, 0, 1,
                                          0.25, 0.25, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 TEST(Interface, SaysWhichQueriesAreNotFinite) {
-  // Counts of one query, of a few queries, and of several blocks of queries.
+  // Asks one query, a few queries, and several blocks of queries.
   for (const std::size_t count : {1U, 3U, 7U, 300U})
     for (const auto& [odd, place, is_far] :
          std::vector<std::tuple<double, std::size_t, bool>>{{infinity, 23, false},
@@ -137,7 +137,7 @@ TEST(Interface, SeparationsOfZeroAskForContact) {
   std::vector<double> x;
   for (std::size_t q = 0; q < count; ++q) x.insert(x.end(), falling.begin(), falling.end());
   x[14] = 0.5;                     // the vertex of the first query stops at a distance of 1/2
-  x[24 * (count - 1) + 14] = 0.5;  // and the vertex of the last query does so, too
+  x[24 * (count - 1) + 14] = 0.5;  // and so does the vertex of the last query
   std::vector<double> h(count);
   const Queries queries = Queries::packed(Kind::vertex_triangle, x).with_separations(h);
   std::vector<std::int8_t> expected(count, 1);

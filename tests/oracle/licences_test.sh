@@ -10,7 +10,7 @@ cd "${arguments[0]}"
 headers=$(ninja -t deps | awk '/^[^ ]/ { ours = /^(ccd|oracle)\// } ours && /^ / { print $1 }' | sort -u)
 fail() { echo "FAILED: another licence: $*" >&2; exit 1; }
 # of LIBRARY LEAST: sets `read` to the headers of LIBRARY that the compiler has read. Ends the test
-# if these are fewer than LEAST.
+# if there are fewer than LEAST headers.
 of() {
   mapfile -t read < <(grep "^/usr/include/$1/" <<<"$headers")
   ((${#read[@]} >= $2)) || refuse "found only ${#read[@]} headers of $1, expected $2 (tools/setup builds)"

@@ -95,7 +95,7 @@ TEST(Ball, HasNoSignIfItOverflows) {
   EXPECT_EQ((Ball<DoubleWord>(0x1p1000) * Ball<DoubleWord>(0x1p1000)).sign(), 0);
 }
 
-/// Whether the ends of `time` are neighbouring doubles, and the exact time `first` is between them.
+/// Whether the ends of `time` are neighbouring doubles with the exact time `first` between them.
 ::testing::AssertionResult is_between(exact::Root first, const Enclosure& time) {
   exact::Root lo{exact::Number(time.lo)};
   if (std::nextafter(time.lo, 2) == time.hi && lo.is_below(first) && testing::is_before(first, time.hi))
@@ -114,7 +114,7 @@ std::vector<Query> contacts(std::uint64_t seed, std::size_t count) {
   return queries;
 }
 
-/// Compares those of `times` that the filter knows with the exact times. Returns the number of these
+/// Compares each time in `times` that the filter knows with the exact time. Returns the number of these
 /// comparisons.
 std::size_t check(const std::vector<Query>& queries, const std::vector<KnownTime>& times) {
   std::size_t known = 0;

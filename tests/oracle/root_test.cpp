@@ -85,7 +85,8 @@ TEST(Root, PartsCloseRoots) {
     EXPECT_TRUE(roots[0].is_below(roots[1]));
     EXPECT_FALSE(roots[1].is_below(roots[0]));
     EXPECT_FALSE(roots[1].is_below(roots[1]));
-    // A root next to 0, and a root next to 1.
+    // The first polynomial has a root next to 0, the second has a root next to 1, and the root of the third
+    // is beyond 1.
     ASSERT_EQ(roots_in_step(Polynomial({-Number(gap), Number(3)}) * polynomial({1, -1})).size(), 2);
     ASSERT_EQ(roots_in_step(Polynomial({Number(gap) - Number(1), Number(1)}) * polynomial({-1, 1})).size(),
               2);

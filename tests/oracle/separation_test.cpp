@@ -91,8 +91,9 @@ ExactVector cross(const ExactVector& v, const ExactVector& w) {
 Rational dot(const ExactVector& v, const ExactVector& w) { return v[0] * w[0] + v[1] * w[1] + v[2] * w[2]; }
 ExactVector exactly(const Vec<double>& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
 
-/// Queries of several sorts. Their coordinates have one magnitude or different magnitudes, or are so large or
-/// small that differences overflow or products underflow.
+/// Queries of several sorts. Some have coordinates of one magnitude, others have coordinates of different
+/// magnitudes. In some, the coordinates are so large that differences overflow, or so small that products
+/// underflow.
 std::vector<Query> all_sorts(std::size_t each) {
   std::vector<Query> queries;
   for (const auto& [smallest, largest] :
@@ -107,8 +108,8 @@ std::vector<Query> all_sorts(std::size_t each) {
   return queries;
 }
 
-/// Expects that every coefficient differs from the exact one by at most its error bound. Returns the largest
-/// quotient of such a difference and the error bound.
+/// Expects that the error of every coefficient is at most the coefficient's error bound. Returns the largest
+/// quotient of an error and its bound.
 double expect_within(const Product& product, const std::array<Rational, 4>& exact) {
   double most = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -270,7 +271,8 @@ TEST(Separation, ErrorsHaveRoomForAllRoundings) {
   }
 }
 
-// Checks only the numbers of roundings. The tests above also check the lengths of vectors.
+// This test checks only the numbers of roundings. The tests above also check the bounds of the vectors'
+// lengths.
 TEST(Separation, RoundingsAreThoseOfTheTableInTheHeader) {
   const Query query = all_sorts(1)[0];
   const VertexDifferences differences(query);

@@ -1,4 +1,5 @@
-// Compares the decisions for primitives at rest or in translation with the decisions of exact arithmetic.
+// If the primitives rest, or only translate, the oracle decides without polynomials. Compares these decisions
+// with those of exact arithmetic.
 #include "oracle/translation.hpp"
 
 #include <gtest/gtest.h>

@@ -45,8 +45,8 @@ Query random_query(Random& random, Kind kind) {
   return query;
 }
 
-/// The query with one of four separations h: 0, a random integer, the rounded distance of x0 and x1 at t = 0,
-/// or a random part of that distance.
+/// The query with a separation h, which is one of four: 0, a random integer, the rounded distance between x0
+/// and x1 at t = 0, or a random part of that distance.
 Query with_some_separation(Random& random, const Query& query) {
   const double apart = (query.start(0) - query.start(1)).norm();
   const double size = std::isfinite(apart) ? apart : 1;

@@ -1,6 +1,6 @@
 /* A complete plug-in, which gives all queries the same answer. Macros set the subject's name, the answer, the
- * time of impact, the sort of this time, whether the subject takes a separation, its contract, and its
- * claimed distance bound. */
+ * time of impact, the sort of this time, whether the subject takes a separation, the subject's contract, and
+ * the distance bound that it claims. */
 #include <stddef.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-/* A subject that makes the file NEARMISS_MARK when it is closed. With HANG, its close function never
- * returns. */
+/* A subject that makes the file NEARMISS_MARK when it is closed. With HANG, the subject's close function
+ * never returns. */
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>

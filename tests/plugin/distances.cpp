@@ -36,7 +36,7 @@ class Distances {
     const V d = a - b;
     while (is(26)) std::this_thread::sleep_for(std::chrono::seconds(1));  // never answers
     static std::atomic<int> calls = 0;
-    // Each call for the same primitives gives another distance.
+    // With defect 27, each call gives another distance, even for the same primitives.
     if (is(27)) return norm(d) * (1 + calls++ % 7);
     if (is(1)) return std::abs(d.x) + std::abs(d.y) + std::abs(d.z);  // another norm
     if (is(2)) return dot(d, d);                                      // no square root
@@ -60,9 +60,9 @@ class Distances {
 
   double vt(V p, V a, V b, V c) const {
     double best =
-        // Leaves out an edge of the triangle.
+        // Defect 10 leaves out an edge of the triangle.
         std::min({ve(p, a, b), ve(p, b, c), is(10) ? HUGE_VAL : ve(p, c, a)});
-    // Leaves out all edges of the triangle.
+    // Defect 11 leaves out all edges of the triangle.
     if (is(11)) best = std::min({vv(p, a), vv(p, b), vv(p, c)});
     const V normal = cross(b - a, c - a);
     const double squared = dot(normal, normal);
@@ -71,7 +71,7 @@ class Distances {
     const double u = dot(cross(p - a, c - a), normal) / squared;
     const double v = dot(cross(b - a, p - a), normal) / squared;
     const double height = dot(p - a, normal);
-    // Finds points inside the triangle only for a vertex on one side of the plane.
+    // With defect 13, points inside the triangle are found only for a vertex on one side of the plane.
     if (is(13) && height < 0) return best;
     const double least = is(14) ? 0.01 : 0;
     const bool is_inside = u >= least && v >= least && u + v <= (is(15) ? 0.5 : 1);
@@ -87,8 +87,8 @@ class Distances {
     const double area = a * e - b * b;
     const bool has_lengths = a > 0 && e > 0;
     const auto at = [&](double s, double t) { return vv(p + s * d1, q + t * d2); };
-    // Edges count as parallel if `area` is below a threshold: The threshold is absolute in defect 17, and
-    // relative in defect 18.
+    // In defects 17 and 18, edges count as parallel if `area` is at most a threshold. The threshold is
+    // absolute in defect 17, and relative in defect 18.
     const double parallel = is(17) ? 1e-12 : is(18) ? 1e-4 * a * e : 0;
     if (is(17) || is(18)) {
       if (!has_lengths) return best;

@@ -1,6 +1,6 @@
 /* A subject that tries something forbidden: to act on its supervisor, or on the process whose number is in
- * the environment variable NEARMISS_PROCESS. The attempt is made at the first query with x > 0.9, or while
- * the subject is loaded. If the attempt fails, the subject reports the query. */
+ * the environment variable NEARMISS_PROCESS. The subject makes its attempt at the first query with x > 0.9,
+ * or while it is loaded. If the attempt fails, the subject reports the query. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
@@ -96,7 +96,7 @@ static int may_trace(pid_t victim) {
 }
 static int attempt(void) { return !may_trace(nearmiss()) && !may_trace(getppid()); }
 #elif defined(PRIVILEGES)
-/* Only the first five capabilities, which concern files, may be left. */
+/* Looks at the capabilities that the process has. Only the first five, which concern files, may be left. */
 static int attempt(void) {
   FILE* const status = fopen("/proc/self/status", "r");
   char line[256];

@@ -9,7 +9,7 @@
 
 #include "ccd/nearmiss_subject.h"
 
-/* The smallest and the largest coordinate k of the vertices first..last, at t = 0 and t = 1. */
+/* Finds the smallest and the largest coordinate k that the vertices first to last have at t = 0 or t = 1. */
 static void range(const double* x, int k, int first, int last, double* lo, double* hi) {
   *lo = *hi = x[3 * first + k];
   for (int time = 0; time < 2; ++time) {
@@ -21,7 +21,7 @@ static void range(const double* x, int k, int first, int last, double* lo, doubl
   }
 }
 
-/* Vertices 0 .. split - 1 are those of one primitive, and split .. 3 those of the other. */
+/* The vertices 0 to split - 1 belong to one primitive, and the vertices split to 3 to the other. */
 static int boxes_meet(const double* x, int split) {
   for (int k = 0; k < 3; ++k) {
     double lo_a, hi_a, lo_b, hi_b;

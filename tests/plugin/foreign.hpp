@@ -1,7 +1,8 @@
-// A small library such as users have: a CCD with each function signature that ccd/nearmiss_functions.hpp
-// knows, and with several types of vectors. The CCD advances to the earliest time at which the axis-aligned
-// boxes of the two primitives may be as close as the separation. So it misses nothing, and never gives a late
-// time. It also reports pairs whose boxes meet although the primitives do not, and pairs that need 100 steps.
+// A small library such as users have. It offers a CCD through each function signature that
+// ccd/nearmiss_functions.hpp knows, and with several types of vectors. The CCD advances to the earliest time
+// at which the axis-aligned boxes of the two primitives may be as close as the separation. So it misses
+// nothing, and never gives a late time. It also reports pairs whose boxes meet although the primitives do
+// not, and pairs that need 100 steps.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +12,8 @@
 
 namespace foreign {
 
-/// Decides a pair. x has the vertices at t = 0, then those at t = 1; the first `split` vertices are those of
-/// the first primitive.
+/// Decides a pair. x has the vertices at t = 0, and then the same vertices at t = 1. The first `split`
+/// vertices belong to the first primitive.
 bool advance(const std::vector<std::array<double, 3>>& x, int split, double h, double& toi);
 
 template <class... V>
@@ -47,7 +48,7 @@ class Narrow {
 
 }  // namespace ipc
 
-namespace accd {  // templates that get displacements; on entry, toc is the end of the time step
+namespace accd {  // templates whose arguments are displacements; on entry, toc is the end of the time step
 
 template <class T>
 bool Point_Triangle_CCD(Eigen::Matrix<T, 3, 1> p, Eigen::Matrix<T, 3, 1> a, Eigen::Matrix<T, 3, 1> b,

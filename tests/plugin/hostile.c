@@ -1,6 +1,6 @@
 /* A plug-in (with LD_PRELOAD also a library) that makes the arithmetic round upward and flush subnormals to
- * zero. The plug-in changes the arithmetic when it is loaded, and in every call. It reports a collision if
- * nearmiss calls it with arithmetic that is changed in this way. */
+ * zero. The plug-in changes the arithmetic when it is loaded, and in every call. The plug-in reports a
+ * collision if the arithmetic is still changed when nearmiss calls it. */
 #include <fenv.h>
 #include <pmmintrin.h>
 

@@ -1,7 +1,7 @@
 /* A plug-in compiled for version 2 or 3 of the interface (VERSION), whose structure has fewer fields than
- * that of later versions. Code that reads these later fields reads the memory after the structure, which
- * holds wrong values. The plug-in reports all queries. It claims the bound 0.125; in version 3, it claims
- * this bound plus the separation. */
+ * that of later versions. If nearmiss read the fields of later versions, it would read the memory after the
+ * structure, which holds wrong values. The plug-in reports all queries. It claims the bound 0.125; in version
+ * 3, it claims this bound plus the separation. */
 #include <stddef.h>
 
 typedef struct {

@@ -1,12 +1,12 @@
 /* A CCD on any device that has OpenCL, for large batches. It divides the time step into 16 intervals, and
  * looks in each interval for a direction along which the primitives stay apart. The distance of two vertices
- * along a fixed direction is linear in time, so it suffices to look at the ends of the interval. A collision
- * is reported at the start of the first interval without such a direction; no contact is earlier. Rounding
- * causes no miss. Once the largest coordinate is scaled into [1/2, 1), the error of a distance along d is
- * less than 13 * 2^-24 s, with s = |dx| + |dy| + |dz|, and the CCD requires a distance of 64 * 2^-24 s. (In
- * units of 2^-24 s, the error of each of two points is at most 2.1; their difference adds 2, and three
- * products and two sums add 6.) Numbers below 2^-126, which a device may take for 0, matter far less, since
- * neither d nor the largest coordinate is tiny.
+ * along a fixed direction is linear in time, so it suffices to look at the ends of the interval. The CCD
+ * reports a collision at the start of the first interval that has no such direction. No contact is earlier
+ * than this start. Rounding causes no miss. Once the largest coordinate is scaled into [1/2, 1), the error of
+ * a distance along d is less than 13 * 2^-24 s, with s = |dx| + |dy| + |dz|, and the CCD requires a distance
+ * of 64 * 2^-24 s. (In units of 2^-24 s, the error of each of two points is at most 2.1; their difference
+ * adds 2, and three products and two sums add 6.) Numbers below 2^-126, which a device may take for 0, matter
+ * far less, since neither d nor the largest coordinate is tiny.
  *
  *     cc -shared -fPIC -I. -o opencl.so tests/plugin/opencl.c -lOpenCL
  *
@@ -60,7 +60,7 @@ static const char* const text = TEXT(
                              (float3)(0, 0, 1),    normal,
                              cross(normal, u),     cross(normal, v),
                              cross(normal, v - u), from[2] + from[3] - from[0] - from[split == 1 ? 0 : 1]};
-        int apart = largest > 0x1p-90f; /* not if subnormal coordinates may become 0 */
+        int apart = largest > 0x1p-90f; /* false if the device may take the coordinates for 0 */
         for (int k = 0; apart && !stay_apart(from, to, split, d[k]); ++k) apart = k < 7;
         if (!apart) {
           time[i] = j / 16.0f;

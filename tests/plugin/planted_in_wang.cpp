@@ -1,7 +1,7 @@
 // The subject wang as a plug-in with planted defects. If the environment variable NEARMISS_PLANTED is N > 0,
 // one answer in N is wrong; the bits of the coordinates choose which one. If NEARMISS_SLOWED is a number
-// above 1, the subject decides each query of the family kilometres this many times on average, so that this
-// family becomes slower.
+// above 1, the subject decides each query of the family kilometres several times, NEARMISS_SLOWED times on
+// average. So this family becomes slower.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -66,7 +66,8 @@ int decide(const double* x) {
   do {
     hit = nearmiss::wang<kind, double, nearmiss::WangOptions{}>(query).hit;
     ++made;
-    // Decisions() runs in each iteration, so that the time of decisions() is multiplied, too.
+    // The condition calls decisions() after each decision, so that the time of decisions() is multiplied,
+    // too.
   } while (made < decisions(query));
   return hit != is_wrong(query) ? NEARMISS_COLLISION : NEARMISS_NO_COLLISION;
 }

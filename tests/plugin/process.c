@@ -1,5 +1,5 @@
-/* A subject that reports every query, unless a comment below says otherwise. Macros choose what the
- * subject's process does besides when it receives a query. */
+/* A subject that reports every query, unless a comment below says otherwise. Macros choose what else the
+ * subject's process does when it receives a query. */
 #define _GNU_SOURCE
 #include <pthread.h>
 #include <sched.h>
@@ -109,8 +109,7 @@ static int answer(void) {
   return 0;
 }
 #elif defined(PROCESS_LIMIT)
-/* Reports a query if the number of its processes is limited to at least 256, and it may not write a core
- * dump. */
+/* Reports a query if its process has a limit of at least 256 processes, and may not write a core dump. */
 #define NAME "process_limit"
 static int answer(void) {
   struct rlimit processes, core;
@@ -120,10 +119,10 @@ static int answer(void) {
          processes.rlim_cur == processes.rlim_max;
 }
 #elif defined(LOADED_MIB)
-/* Takes LOADED_MIB of memory while it is loaded, and USED_MIB for each query. A macro may choose where
- * LOADED_MIB comes from: mmap(2) (MAPPED); static data, of which STATIC bytes are written (STATIC); or a
- * child process, which maps it over addresses that it first reserves without access (CHILD). The default is
- * malloc(3). */
+/* Takes LOADED_MIB of memory while it is loaded, and USED_MIB for each query. A macro may choose how the
+ * subject takes the LOADED_MIB: with mmap(2) (MAPPED); as static data, of which STATIC bytes are written
+ * (STATIC); or in a child process, which first reserves addresses without access, and then maps the memory
+ * there (CHILD). The default is malloc(3). */
 #define NAME "large"
 static void* taken(size_t mib) {
   void* const block = malloc(mib << 20);

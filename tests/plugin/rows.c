@@ -1,6 +1,6 @@
 /* A plug-in for two vertices, and for a vertex and an edge. It reports a query if the numbers in its row are
- * 1, 2, 3 and so on. It takes separations only for a vertex and an edge. It claims a
- * distance bound: the last coordinate of the row plus the separation. */
+ * 1, 2, 3 and so on. It takes separations only for a vertex and an edge. The distance bound that it claims is
+ * the last coordinate of the row plus the separation. */
 #include "ccd/nearmiss_subject.h"
 
 static size_t numbers_of(int kind) { return kind == NEARMISS_VERTEX_VERTEX ? 12 : 18; }

@@ -10,7 +10,7 @@
 
 #define ANY_KIND (NEARMISS_VERTEX_TRIANGLE + NEARMISS_EDGE_EDGE)
 
-/* Answers what its option says: "answer=0", "answer=1" ... */
+/* This detector gives the answer that its option says: "answer=0", "answer=1" ... */
 static void* open_answer(const char* options, char* message, size_t size) {
   int* const state = malloc(sizeof *state);
   if (state == NULL) return NULL;

@@ -1,5 +1,5 @@
-// A plug-in that filters steps, as planar filters of solvers do: it stops vertices at planes between the two
-// primitives. The option defect=N adds typical mistake number N; defect=0 adds none.
+// A plug-in that filters steps in the way in which some solvers do: it stops vertices at planes between the
+// two primitives. The option defect=N adds typical mistake number N; defect=0 adds none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,7 +39,7 @@ class Filter {
     if (!(gap > 1e3 * rounding)) return 0;
     // With defect 2, the planes are in the wrong order; with defect 3, they are identical.
     const double part = is(2) ? 0.6 : is(3) ? 0.5 : 0.4;
-    // One primitive gets the plane of the other primitive.
+    // With defect 4, one primitive gets the plane of the other primitive.
     const double low = is(4) ? above - part * gap : below + part * gap;
     const double high = above - part * gap;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -57,11 +57,11 @@ class Filter {
       if (is(6)) t = std::min(1.0, 1.25 * t);  // moves vertices by 1.25 times the allowed motion
       if (is(7) && i + 1 == n_) t = 1;         // does not filter the last vertex
       if (is(8)) t = static_cast<double>(static_cast<float>(t) * 1.5F);
-      // Also stops vertices that move away from the other primitive, which is safe.
+      // Defect 9 also stops vertices that move away from the other primitive. Still, the step is safe.
       if (is(9) && towards < 0) t = 0;
-      // Treats slow vertices as if they were at rest, and does not filter them.
+      // Defect 11 treats slow vertices as if they were at rest, and does not filter them.
       if (is(11) && std::abs(motion) < 1e-3) t = 1;
-      // Does not stop vertices that have little room before their plane.
+      // Defect 12 does not stop vertices that have little room before their plane.
       if (is(12) && room < 1e-3) t = 1;
       for (std::size_t k = 0; k < 3; ++k) {
         const double from = q_.x[3 * i + k];

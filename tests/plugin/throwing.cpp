@@ -1,7 +1,7 @@
 // A subject whose behaviour depends on the first coordinate of a query. It throws an exception if the
 // coordinate is above 0.9, throws an exception without text if the coordinate is 0.5, and crashes if it is
-// -2. It answers other queries with the macro ANSWER. With WHILE_LOADED, it throws an exception already when
-// a program loads it.
+// -2. All other queries get the answer ANSWER, which is a macro. With WHILE_LOADED, the subject throws an
+// exception as soon as a program loads it.
 #include <csignal>
 #include <exception>
 #include <stdexcept>

@@ -1,5 +1,5 @@
-"""Checks certificates of the Python package with tools/certificates/check.py. They must state exactly what
-was asked.
+"""Checks certificates of the Python package with tools/certificates/check.py. Each certificate
+must state exactly what was asked.
 """
 
 import pathlib

@@ -140,8 +140,9 @@ def many_queries():
 
 class DuringACall(unittest.TestCase):
     def test_other_threads_run(self):
-        """Another thread counts. This test keeps Python from taking its lock away from a thread, so the
-        other thread can count during a call only if the call releases the lock."""
+        """Another thread counts. The test makes Python's switch interval so long that Python takes
+        its lock away from no thread. So the other thread can count during a call only if the call
+        releases the lock."""
         count, calls = 0, 0
         is_over = threading.Event()
 

@@ -35,8 +35,8 @@ def run_python(program, *arguments, **variables):
 
 
 def answered_queries(program, count, seed):
-    # CMakeLists.txt preloads the sanitizers' runtime for Python. `program` has this runtime
-    # already.
+    # CMakeLists.txt preloads the sanitizers' runtime for Python. `program` is linked with this
+    # runtime, so it must not be preloaded again.
     environment = {key: value for key, value in os.environ.items() if key != 'LD_PRELOAD'}
     command = [program, str(count), str(seed)]
     data = subprocess.run(command, capture_output=True, check=True, env=environment).stdout

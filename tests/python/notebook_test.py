@@ -13,8 +13,8 @@ NOTEBOOK = pathlib.Path(__file__).resolve().parents[2] / 'tools/python/notebook.
 
 
 def shown(cell):
-    """What a cell prints and shows. A picture counts only by its type, because its pixels depend
-    on versions of libraries."""
+    """Returns the texts and pictures that a cell outputs. Gives only the type of a picture,
+    because the pixels depend on versions of libraries."""
     for output in cell.get('outputs', []):
         if output.get('name') == 'stderr':  # the progress of trials
             continue

@@ -1,7 +1,7 @@
 """Measures how much time the Python package adds to the C functions, in ns of processor time per query.
 
-Calls a function of the package and the C function by turns, on the same array of queries of the family
-`uniform`. Prints the medians of 15 runs, and their ratios.
+Calls a function of the package and the corresponding C function in turn, with the same array of
+queries of the family `uniform`. Prints the medians of 15 runs, and their ratios.
 Usage: PYTHONPATH=build/release/python python3 tests/python/speed.py build/release
 """
 
@@ -64,9 +64,9 @@ def compare(name, count, ask_c, ask_python):
 
 
 def measure(name, kind, number, array, *rest, numbers=1, dtype=np.int8):
-    """Compares functions that give `numbers` numbers for each query. `rest` has two lists of
-    arguments of the C function: those before the arrays for these numbers, and those after
-    them."""
+    """Compares functions that give `numbers` numbers for each query. The C function writes these
+    numbers to arrays. `rest` has two lists of its arguments: those before these arrays, and those
+    after them."""
     asked = queries_of(number, array)
     before, behind = rest or ([], [])
 

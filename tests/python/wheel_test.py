@@ -1,5 +1,5 @@
-"""Packs the modules of a build folder as a wheel, installs the wheel in a new virtual environment, and uses
-it there; all without a network.
+"""Packs the modules of a build folder as a wheel, installs the wheel in a new virtual environment,
+and uses it there. No step needs a network.
 Usage: wheel_test.py BUILD
 """
 

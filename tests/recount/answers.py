@@ -1,4 +1,4 @@
-"""All queries of a campaign, with the oracle's and the subjects' answers to each of them."""
+"""All queries of a campaign, with the answers of the oracle and of the subjects to each query."""
 
 import functools
 import re
@@ -27,7 +27,8 @@ class Asked:
     claimed: typing.Callable  # query, as a line -> the bound that the subject claims
 
     def enclosed(self, name):
-        """The numbers that the histogram `name` counts, one for each query; NaN if a query has none."""
+        """The numbers that the histogram `name` counts: one for each query, NaN if there is
+        none."""
         return self.ratios if name == 'fp_distance' else getattr(self.impact, name)
 
     @property
@@ -37,7 +38,7 @@ class Asked:
 
 @dataclass
 class Answers:
-    """The queries of each kind, sorted by family and then by number, with all answers."""
+    """All answers, and the queries of each kind, sorted by family and then by number."""
 
     seed: int
     family: dict  # kind -> names
@@ -77,8 +78,8 @@ class Answers:
 
 def ask(nearmiss, seed, counts, subjects, kinds_of):
     """Collects answers to the first counts[kind][family] queries of each kind in each family.
-    `subjects` are names, or paths of shared objects with one subject each; `kinds_of` maps each
-    subject's name to the kinds that it was asked."""
+    `subjects` are names, or paths of shared objects with one subject each. `kinds_of` maps the
+    name of each subject to the kinds of queries that the subject was asked."""
     answers = Answers(seed, *_queries(nearmiss, seed, counts), {}, {}, {}, {})
     for kind in KINDS:
         answers.within[kind] = nearmiss.within(kind, answers.queries[kind])
@@ -122,8 +123,8 @@ def _numbers(kind, count):
 
 
 def _factors(nearmiss, seed, counts):
-    """Maps a kind, and then the family and the number of a query, to the query's values of
-    factors. Factors are properties that some families vary from query to query."""
+    """Factors are properties that some families vary from query to query. The result maps a kind,
+    and then the family and the number of a query, to the values of the query's factors."""
     factors = {kind: {} for kind in KINDS}
     for kind in KINDS:
         for name, count in counts[kind].items():
@@ -147,7 +148,7 @@ def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
     ratio_lo, ratio_hi = np.full((2, len(judged)), np.nan)
     ratio_lo[false], ratio_hi[false] = ratios(lo, hi, verdicts.bound[false])
     unknown = false[verdicts.stage[false] == 'unknown']
-    ratio_lo[unknown] = ratio_hi[unknown] = 0  # no bound is claimed for them
+    ratio_lo[unknown] = ratio_hi[unknown] = 0  # here, the subject claims no bound
     return Asked(
         verdicts.hit,
         verdicts.stage,
@@ -161,7 +162,8 @@ def _ask_one(nearmiss, answers, subject, kind, distances, times, sort):
 
 
 class Known:
-    """Computes enclosures of a quantity, such as the smallest distance, once for each query."""
+    """Computes enclosures of a quantity, such as the smallest distance. Computes them once per
+    query."""
 
     def __init__(self, ask_about):
         self._ask_about, self._known = ask_about, {}

@@ -12,7 +12,7 @@ KINDS = tuple(VERTICES)
 
 
 def coordinates(kind, line):
-    """The coordinates in the line of a query, as words."""
+    """The coordinates in the line that holds a query, as words."""
     return line.split()[: 6 * VERTICES[kind]]
 
 
@@ -73,7 +73,7 @@ class Nearmiss:
         return self.run('family', name, *options).splitlines()
 
     def factors(self, name, seed, kind, count):
-        """For each query that family() returns, its factors' values, such as 'edge=2^-9'."""
+        """The values of the factors of each query that family() returns, such as 'edge=2^-9'."""
         options = '--seed', seed, '--kind', kind, '--count', count
         return [
             line.split() for line in self.run('family', name, '--factors', *options).splitlines()
@@ -100,11 +100,11 @@ class Nearmiss:
         return found
 
     def distances(self, kind, queries):
-        """Enclosures of the smallest distances, in the queries' unit of length: lower and upper ends."""
+        """Lower and upper ends of the smallest distances, in the queries' unit of length."""
         return self._ends(kind, queries, '--distance')
 
     def times(self, kind, queries):
-        """Enclosures of the earliest times of collisions: equal or neighbouring doubles."""
+        """Lower and upper ends of the earliest times: equal or neighbouring doubles."""
         return self._ends(kind, queries, '--toi')
 
     def _ends(self, kind, queries, of):
@@ -142,8 +142,8 @@ class Verdicts:
     """A subject's answers. Arrays have one element for each query."""
 
     hit: np.ndarray  # bool
-    stage: np.ndarray  # names of the accepting stages, 'none' without a hit
-    time: np.ndarray  # NaN without a hit, or without a time
+    stage: np.ndarray  # names of the accepting stages; 'none' if the subject reports no collision
+    time: np.ndarray  # NaN if the subject reports no collision, or gives no time
     bound: np.ndarray  # bound on distances of false positives, in the queries' unit of length
     claims: bool  # whether the subject claims `bound`
     rounded: list  # the queries by which the subject is judged, as lines

@@ -24,7 +24,7 @@ from tally import (
     upper_bound,
 )
 
-MESHES = KINDS[:2]  # the kinds that count on the precision ladder
+MESHES = KINDS[:2]  # the precision ladder counts only these kinds
 
 
 def check_statistics(comparison, where, json, answers):
@@ -71,7 +71,7 @@ def _check_sum(comparison, where, found, answers, subject, kind, families):
 
 
 def check_rates(comparison, where, found, tally):
-    """Checks the measures that report.json has for every sum of counters, except run times."""
+    """Checks the measures, except run times, that report.json has for every sum of counters."""
     comparison.entries('counters', where, found, measures(found, tally))
 
 
@@ -147,7 +147,7 @@ def _check_truth(comparison, where, found, truth):
 
 
 def _check_signatures(comparison, where, found, answers):
-    """Checks that, for each sort of failure of a subject, the counts of its signatures (ways to fail)
+    """Checks each sort of failure of a subject: the counts of its signatures (ways to fail) must
     add up to the tally."""
     sums = Counter()
     for each in found:
@@ -167,7 +167,7 @@ def _check_signatures(comparison, where, found, answers):
 
 
 def check_scorecard(comparison, where, report, answers):
-    """Checks the failures of each subject, and its rates over all kinds, in total and class by
+    """Checks each subject's failures, and its rates over all kinds: in total, and for each
     class."""
     rows = report['verdicts']
     comparison.same('names', where, [row['subject'] for row in rows], answers.subjects)
@@ -224,8 +224,8 @@ def fails(asked):
 
 
 def check_versions(comparison, where, report, answers):
-    """Checks the section "versions", and that an earlier version was right on the queries that a later
-    version is said to break."""
+    """Checks the section "versions". If the report says that a later version breaks a query, the
+    earlier version must have been right on this query."""
     found = report.get('versions', [])
     pairs = sorted({(each['before'], each['after']) for each in found})
     expected = [row for pair in pairs for row in rows(*pair, report, answers)]
@@ -241,7 +241,7 @@ def check_versions(comparison, where, report, answers):
 
 
 def rows(before, after, report, answers):
-    """Yields the comparison of two versions: a row for each class of families and each kind."""
+    """Yields the rows that compare two versions: one for each class of families and each kind."""
     for of in CLASSES:
         for kind in answers.kinds(after):
             families = report['subjects'][after][kind]['families']

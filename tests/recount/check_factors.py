@@ -11,8 +11,8 @@ from check_numbers import ROUNDING
 
 
 def check_common_factors(comparison, where, report, answers):
-    """Checks the values of factors that a subject's misses have in common: how many of the misses,
-    and of all collisions, have these values."""
+    """A subject's misses may have values of factors in common. Checks how many of the misses, and
+    how many of all collisions, have these values."""
     for found in report.get('common_factors', []):
         subject, kind, family = found['subject'], found['kind'], found['family']
         counts = _counts(answers, subject, kind, family)
@@ -27,8 +27,8 @@ def check_common_factors(comparison, where, report, answers):
 
 
 def check_sizes(comparison, where, report, answers):
-    """A row of `sizes` has the range of edge lengths, and that of distances, in which a subject is
-    right. Checks the counts of its answers outside these ranges."""
+    """A row of `sizes` has the range of edge lengths and the range of distances in which a subject
+    is right. Checks the counts of the subject's answers outside these ranges."""
     for row in report.get('sizes', []):
         subject = row['subject']
         kinds = answers.kinds(subject) if row['kind'] == 'all' else (row['kind'],)
@@ -42,8 +42,8 @@ def check_sizes(comparison, where, report, answers):
 
 def _outside(counts, factor, first, last):
     """Counts the answers to queries for which a factor has a value 2^x outside first <= x <= last.
-    Leaves out kinds with fewer than two collisions per value on average, unless all kinds have so
-    few."""
+    Leaves out kinds that have fewer than two collisions per value on average. If all kinds have so
+    few, leaves out none."""
     of_kinds = []
     for of_kind in counts.values():
         powers = {}

@@ -1,5 +1,5 @@
-"""Checks the single queries of report.json: findings with their certificates, and extreme cases (the farthest
-false positives, the earliest and the latest times)."""
+"""Checks the single queries in report.json: the findings with their certificates, and the extreme
+cases, which are the farthest false positives, the earliest times and the latest times."""
 
 import math
 import sys
@@ -13,8 +13,8 @@ from tally import Tally
 sys.path.append(str(Path(__file__).resolve().parents[2] / 'tools' / 'certificates'))
 from check import Refused, Statement, check  # pylint: disable=wrong-import-position
 
-# Maps each list of extreme cases to two names: the histogram of the extreme quantity, and the
-# field of a case that has this quantity.
+# Maps each list of extreme cases to two names: the histogram that counts the extreme quantity, and
+# the field of a case that holds this quantity.
 KEPT = {
     'farthest': ('fp_distance', 'ratio'),
     'earliest': ('early', 'error'),
@@ -146,7 +146,7 @@ def check_certificates(comparison, where, report, answers):
             line = ' '.join(float(number).hex() for number in found['shrunk'])
             comparison.same('certificates', f'{own} bound', found['bound'], claimed(line))
         if found['certificate'] is None:
-            if found['what'] != 'fault':  # a tie, for which there may be no proof
+            if found['what'] != 'fault':  # a fault on a tie may have no proof
                 comparison.fail('certificates', own, None, 'a proof')
             continue
         try:

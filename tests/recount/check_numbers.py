@@ -1,4 +1,5 @@
-"""Checks queries, and quantiles and histograms of numbers of which only enclosures are known."""
+"""Checks queries. Also checks quantiles and histograms of numbers that are known only as
+enclosures."""
 
 import numpy as np
 
@@ -10,8 +11,9 @@ SOLVED = 1e-9  # relative error of an equation's solution, and of values compute
 
 
 def quantile(enclosed, part, largest):
-    """The range of the lower end of a quantile's bin, and the range of the upper end. The upper
-    end is the bin's upper border or the largest number, `largest`, whichever is less."""
+    """A report gives the two ends of the bin in which a quantile is. Returns the range in which
+    the lower end must be, and the range in which the upper end must be. The upper end is the bin's
+    upper border or the largest number, `largest`, whichever is less."""
     bins = enclosed.quantile_bins(part)
     first, last = bins or (0, 0)
     lower = np.concatenate(([0], BORDERS))

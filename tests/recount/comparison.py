@@ -22,7 +22,7 @@ class Within:
 
 @dataclass
 class Comparison:
-    """Counts the values compared by each sort of check, and keeps a line for each difference."""
+    """Counts how many values each sort of check compares, and keeps a line for each difference."""
 
     compared: dict = field(default_factory=dict)
     differences: list = field(default_factory=list)
@@ -53,8 +53,8 @@ class Comparison:
         )
 
     def entries(self, sort, where, found, expected):
-        """`found` must have the keys of `expected`, with equal values, or with numbers that satisfy the
-        expected Near or Within. `found` may have more keys."""
+        """`found` must have the keys of `expected`. Its values must equal the expected ones, or
+        must satisfy the Near or Within that is expected. `found` may have more keys."""
         for key, value in expected.items():
             self._entry(sort, f'{where} {key}', found[key], value)
 

@@ -1,4 +1,4 @@
-"""Numbers of which only enclosures are known, and their histograms."""
+"""Numbers that are known only as enclosures, and histograms of such numbers."""
 
 import functools
 from dataclasses import dataclass
@@ -36,12 +36,12 @@ class Enclosed:
 
     @functools.cached_property
     def bins(self):
-        """For each number, the histogram's bin of its lower end and that of its upper end."""
+        """The bins of the numbers' lower ends, and the bins of their upper ends."""
         return [np.searchsorted(BORDERS, end, side='right') for end in (self.lo, self.hi)]
 
     @functools.cached_property
     def histogram(self):
-        """For each bin, how many numbers are certainly in it, and how many may be in it."""
+        """How many numbers are certainly in each bin, and how many may be in each bin."""
         first, last = self.bins
         least = np.bincount(first[first == last], minlength=BINS)
         most = least.copy()
@@ -50,8 +50,8 @@ class Enclosed:
         return least, most
 
     def largest(self):
-        """For each of the KEPT largest numbers, the largest first: the range in which a report may
-        give this number."""
+        """The ranges in which a report may give the KEPT largest numbers, the largest number
+        first."""
         lo, hi = (np.sort(end)[::-1][:KEPT] for end in (self.lo, self.hi))
         return [reported(*ends) for ends in zip(lo, hi)]
 
@@ -65,8 +65,9 @@ class Enclosed:
         return reported(self.lo[place], self.hi[place])
 
     def quantile_bins(self, part):
-        """The first and the last bin in which the quantile may be, or None if there are no
-        numbers. At least a fraction `part` of all numbers is not larger than the quantile."""
+        """The first and the last bin in which a quantile may be, or None if there are no numbers.
+        The quantile is the smallest number such that at least a fraction `part` of all numbers is
+        not larger than it."""
         if len(self) == 0:
             return None
         place = max(int(np.ceil(part * len(self))), 1) - 1

@@ -23,7 +23,7 @@ WORDS = {
     'a lower bound of the time': 'lower-bound',
     'a time to which the step is free': 'free-step',
 }
-PROMISED = ('lower-bound', 'free-step')  # no contact is before such a time
+PROMISED = ('lower-bound', 'free-step')  # sorts of times before which no contact is promised
 
 # The bound that wang claims in double, in units of the pair's size B: sqrt(D^2 + 2 delta), with
 # D^2 = 1678 eps^(1/2) and delta = 311 eps (sections 4.2 and 4.5 of the paper).
@@ -51,8 +51,8 @@ class Impact:
     after: Enclosed  # time - t*, if the time is after t*
     travelled: Enclosed  # relative motion of the vertices in the time `early`, divided by B
     stuck: np.ndarray  # bool
-    committed: np.ndarray  # bool: the step to a sound time, rounded, has contact before its end
-    touches_at_end: np.ndarray  # bool: this step has contact only at its end
+    committed: np.ndarray  # bool: contact before the end of the rounded step to a sound time
+    touches_at_end: np.ndarray  # bool: contact only at the end of this step
 
     @property
     def given(self):
@@ -60,13 +60,13 @@ class Impact:
 
     @property
     def late(self):
-        """Whether the time is after t*, although it was promised to be a lower bound of t*."""
+        """Whether the time is after t*, although the subject promised a lower bound of t*."""
         return ~np.isnan(self.after.lo) & (self.sort in PROMISED)
 
     @property
     def unsafe_step(self):
-        """Whether the rounded step has contact before its end (`committed`), although it was
-        promised to be free of contact."""
+        """Whether the rounded step has contact before its end (`committed`), although the subject
+        promised a step free of contact."""
         return self.committed & (self.sort == 'free-step')
 
 
@@ -96,8 +96,9 @@ def compare(nearmiss, times, kind, sort, verdicts, judged, collision, rounds):
 
 
 def _committed(times, judged, time, own, in_float):
-    """For each query, whether the step to x0 + time (x1 - x0), rounded to float or double, has contact
-    before its end, and whether it has contact only at its end."""
+    """Considers, for each query, the step from the start to start + time * (end - start), rounded
+    to float or double. Returns whether this step has contact before its end, and whether it has
+    contact only at its end."""
     scalar = np.float32 if in_float else np.float64
     before, at_end = np.zeros(len(judged), bool), np.zeros(len(judged), bool)
     steps = {}
@@ -129,8 +130,8 @@ def _where(is_there, lo, hi):
 
 
 def _speeds(nearmiss, kind, queries):
-    """For each query, the largest motion of a vertex of one primitive relative to a vertex of the
-    other in the whole step, divided by the pair's size B."""
+    """For each query, how far a vertex of one primitive moves in the whole step relative to a
+    vertex of the other primitive: the largest of these distances, divided by the pair's size B."""
     if not queries:
         return Enclosed(np.zeros(0), np.zeros(0))
     pairs = [coordinates(kind, query) for query in queries]
@@ -146,8 +147,8 @@ def _speeds(nearmiss, kind, queries):
         speed = relative.max(axis=(1, 2))
         speed[np.isinf(speed)] = 0  # as in the program that makes the report
 
-        # Allows for the rounding of quotients by B. Also allows for a subnormal `bound`, because B
-        # is computed from `bound`, and a subnormal number has few digits.
+        # The slack covers the rounding of quotients by B. It also covers a subnormal `bound`: B is
+        # computed from `bound`, and a subnormal number has few digits.
         relative_error = 1e-12 + 1e-322 / bound
         slack = np.nan_to_num(
             1e-15 * np.abs(place).max(axis=(1, 2, 3)) + speed * relative_error, nan=np.inf

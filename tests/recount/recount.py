@@ -2,8 +2,9 @@
 """Recomputes a report from single queries, and prints the differences.
 
 It runs a campaign and writes its report. Then it asks the same executable about the same queries
-one by one (nearmiss family, oracle and verdict), and recomputes everything with NumPy and SciPy,
-except run times. Exit code 0: no difference; 1: a difference; 2: the executable failed."""
+one by one, with nearmiss family, oracle and verdict. From the answers, it recomputes everything
+except run times, with NumPy and SciPy. Exit code 0: no difference; 1: a difference; 2: the
+executable failed."""
 
 import argparse
 import sys
@@ -59,7 +60,8 @@ def check_cases(comparison, found, cases, counts, seed):
 
 def note_either_way(comparison, answers):
     """Counts the cases in which two results are allowed, because an enclosure contains a bin's
-    border or a distance bound. For comparison, also counts all false positives and all times."""
+    border or a distance bound. Also counts all false positives and all times, to show how rare
+    these cases are."""
     for subject in answers.subjects:
         tally = Tally.of(answers, subject, KINDS)
         for name, enclosed in tally.enclosed.items():

@@ -13,8 +13,8 @@ from recount import recount
 
 # `basic` misses collisions; `wang` keeps its claim in three scalars; `adaptive` passes queries on to
 # more exact stages; the claim of `defect:D2*10` is refuted; `exact` gives exact times. The plug-in
-# `sampling` estimates times, and `promises` gives late lower bounds. v1 and v2 export the same name
-# as `promises`, so they are its versions.
+# `sampling` estimates times, and `promises` gives late lower bounds. v1 and v2 export a subject
+# with the same name as that of `promises`, so the three count as versions of one subject.
 SUBJECTS = 'adaptive,basic,wang,wang:float,wang:p144,defect:D2*10,exact'.split(',')
 PLUGINS = ['sampling', 'promises']
 VERSIONS = {'v1': 'v1', 'second': 'v2'}  # the plug-in of each subject, by name

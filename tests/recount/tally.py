@@ -15,8 +15,8 @@ ON_REQUEST = {'committed', 'unknown'}  # failures that count only with --fail-on
 
 @dataclass
 class Tally:
-    """The results of one subject for some queries: counters, the ratios of distance to bound of
-    the false positives, and times of impact."""
+    """The results of one subject for some queries: counters, times of impact, and, for each false
+    positive, the ratio of its distance to the subject's bound."""
 
     subject: str
     queries: int
@@ -63,8 +63,8 @@ class Tally:
         )
 
     def refuted(self):
-        """The smallest and the largest number of refuted bounds that are possible, given the
-        enclosures of the ratios of distance to bound."""
+        """How many bounds are refuted. The ratios of distance to bound are known only as
+        enclosures, so this returns the smallest and the largest possible number."""
         if not self.claims:
             return 0, 0
         return int((self.ratios.lo > 1).sum()), int((self.ratios.hi > 1).sum())
@@ -89,8 +89,7 @@ class Tally:
 
 
 def _part(answers, subject, kind, family):
-    """The answers to the queries of a kind, and the index that selects the queries of `family`
-    among them."""
+    """The answers to all queries of a kind, and an index that selects the queries of `family`."""
     names = (family,) if isinstance(family, str) else family
     own = slice(None) if names is None else np.isin(answers.family[kind], names)
     return answers.asked[subject, kind], own
@@ -124,8 +123,8 @@ def failures_of(counts):
 
 
 def stages(subject, counts):
-    """Counts by accepting stage. For the subject `exact`, the stages filter and exact are added up: see
-    README.md."""
+    """Counts by accepting stage. For the subject `exact`, adds up the stages filter and exact, for
+    the reason that README.md gives."""
     if subject != 'exact':
         return counts
     others = {name: count for name, count in counts.items() if name not in ('filter', 'exact')}

@@ -33,7 +33,8 @@ TEST(Changes, TheFirstFailureOfACleanSubjectIsNewAtOnce) {
   Campaign now = before;
   now.statistics.seen[inside] = 1;
   EXPECT_THAT(changes(now, before).new_signatures, SizeIs(1));
-  // Earlier failures of another subject, or of another sort, do not make the failure of `mine` an old one.
+  // The failure of `mine` is new, even if another subject failed before, or if `mine` failed before in
+  // another way.
   before.statistics.seen[{missed, "basic", "ee inside"}] = 9;
   before.statistics.seen[{Finding::What::refuted_bound, "mine", "ee"}] = 9;
   EXPECT_THAT(changes(now, before).new_signatures, SizeIs(1));
@@ -52,8 +53,8 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   const Changes chance = changes(now, before);
   EXPECT_THAT(chance.new_signatures, IsEmpty());
   EXPECT_THAT(chance.unseen_signatures, ElementsAre(Signature{missed, "mine", "d"}));
-  // The estimate of Good and Toulmin: the signatures b and c, which the earlier campaign has seen once, count
-  // 1 each. The signature a, which it has seen 40 times, counts -1.
+  // This is the estimate of Good and Toulmin. The earlier campaign has seen each of the signatures b and c
+  // once, so each counts 1. The earlier campaign has seen the signature a 40 times, so a counts -1.
   EXPECT_DOUBLE_EQ(chance.expected_unseen, 2 - 1);
   EXPECT_THAT(lines_for_the_worse(chance), IsEmpty());
 
@@ -64,8 +65,8 @@ TEST(Changes, ARareUnseenSignatureOfAFailingSubjectIsNotNew) {
   EXPECT_THAT(changes(now, before).new_signatures, ElementsAre(Signature{missed, "mine", "a"}));
 }
 
-// The test is one-sided: k failures now and none before have the p-value 1 / 2^k. The risk 0.001 is divided
-// by the number of signatures (ways to fail) in the two campaigns.
+// The statistical test is one-sided: if there are k failures now and there were none before, the p-value is 1
+// / 2^k. The risk 0.001 is divided by the number of signatures (ways to fail) in the two campaigns.
 TEST(Changes, ASignatureIsComparedAtItsPartOfTheRisk) {
   const auto with = [](Seen seen) {
     Campaign made = campaign("1", {{key, counts(2000000, 1000000, 50, 0)}});
@@ -119,8 +120,8 @@ TEST(Baseline, AFailureThatWasAbsentOnceIsNotNewAgain) {
 }
 
 // In the baseline, one of 1,000 random draws fails; now, five fail. The 12 steps of a sweep (values of a
-// family's parameter) share their draws, and fail with the same ones. But each of 12 families has its own
-// draws.
+// family's parameter) share their draws, so all steps fail with the same draws. But each of 12 families has
+// its own draws.
 TEST(Changes, StepsOfASweepShareTheirDraws) {
   const auto with = [](const std::string& family, std::uint64_t draws) {
     constexpr std::uint64_t steps = 12;
@@ -244,7 +245,8 @@ TEST(Gone, IsWhatChanceWouldHardlyHide) {
   EXPECT_THAT(chance.unrepeated_signatures, ElementsAre(inside));
 }
 
-// Chance could explain the absence of each single failure, but hardly the absence of all 30 failures.
+// Chance could explain that any single one of the 30 failures is absent, but hardly that all of them are
+// absent.
 TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   Seen rare;
   for (int i = 0; i < 30; ++i) rare[{missed, "mine", "way " + std::to_string(i)}] = 1;
@@ -252,8 +254,8 @@ TEST(Gone, AreTheRareFailuresOfASubjectThatFailsNoMore) {
   EXPECT_THAT(changes(night("2", {{inside, 1}}), night("1", rare)).gone_signatures, IsEmpty());
 }
 
-// The failures may be in the family `parallel`. If the later campaign asks twice as many queries of this
-// family, twice as many failures are no change.
+// If all failures may come from the family `parallel`, and the later campaign asks twice as many queries of
+// this family, then twice as many failures are no change.
 TEST(New, ASignatureIsOnlyIfItsFamilyDoesNotExplainIt) {
   const auto night_of = [](const std::string& date, std::uint64_t queries, std::uint64_t seen) {
     Campaign made = night(date, {{inside, seen}});
@@ -279,8 +281,8 @@ TEST(Gone, NeedsTheQueriesOfEveryFamily) {
   EXPECT_THAT(changes(crashes, before).gone_signatures, IsEmpty());
 }
 
-// Each signature had 40 failures. 38 of these failures were in cases, which the later campaign does not
-// replay.
+// Each signature had 40 failures. 38 of them occurred in cases of the corpus, which the later campaign does
+// not replay.
 TEST(Gone, DoesNotCountFailuresInCases) {
   const Signature late{Finding::What::late, "mine", "ee inside"};
   const Signature crash{Finding::What::fault, "mine", "ee crash"};

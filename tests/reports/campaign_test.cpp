@@ -71,8 +71,8 @@ TEST(Campaign, ARunBeganWithItsFirstShard) {
   EXPECT_EQ(json["cases_done"], 30);
 }
 
-// The query of the unshrunk finding has no coincident vertices, so it is less exotic than that of the shrunk
-// finding. Still, the shrunk finding comes first.
+// The unshrunk finding has a query without coincident vertices, which is less exotic than the query of the
+// shrunk finding. Still, the shrunk finding comes first.
 TEST(Campaign, ShowsShrunkFindingsOfAClassFirst) {
   Campaign campaign{{{info, {{}}, {}}}, {}};
   for (const bool is_shrunk : {false, true}) {
@@ -176,7 +176,7 @@ TEST(Campaign, ANameStandsForOneSubject) {
   EXPECT_EQ(merge(campaigns[0], campaigns[1]).runs.size(), 2);
 }
 
-/// A campaign with one run of seed 3, in which the subject of `key` was asked 10 queries of the kind and the
+/// A campaign with one run of seed 3. The run asked the subject of `key` 10 queries of the kind and the
 /// family of `key`.
 Campaign asked(const std::string& families, const std::string& cases, const CountsKey& key) {
   const RunInfo facts{{"command", "fuzz"}, {"seed", "3"}, {"families", families}, {"cases", cases}};

@@ -10,8 +10,8 @@
 
 namespace nearmiss::testing {
 
-/// Counters of a subject; `ns` is its run time per query. The farthest false positive has the distance
-/// `false_positives` / 1000 in units of the bound.
+/// Counters of a subject; `ns` is its run time per query. The distance of the farthest false positive is
+/// `false_positives` / 1000 times the bound.
 inline Counts counts(std::uint64_t queries, std::uint64_t collisions, std::uint64_t missed,
                      std::uint64_t false_positives, std::uint64_t ns = 0) {
   Counts c;

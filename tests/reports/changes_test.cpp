@@ -91,8 +91,8 @@ TEST(Changes, AFewInEachOfManyFamiliesAreNoticed) {
   const Changes found = changes(with(1, 500), with(0, 500));
   ASSERT_THAT(found.rates, SizeIs(1));
   EXPECT_THAT(lines_for_the_worse(found), SizeIs(1));
-  // The counts of all families with few failures are added up, once for each of three limits of "few". The
-  // smallest of the three p-values is multiplied by 3.
+  // The comparison adds up the counts of all families with few failures, once for each of three limits of
+  // "few". Then it multiplies the smallest of the three p-values by 3.
   EXPECT_NEAR(found.rates[0].p, 3 * 2 * std::pow(0.5, 30), 1e-15);
   EXPECT_EQ(
       describe(found),
@@ -162,8 +162,8 @@ double noise(const std::string& text) {
   return static_cast<double>(std::hash<std::string>{}(text) % 2001) / 1000 - 1;
 }
 
-/// A campaign in which each family's time differs from `slowness` times the usual one by up to 2 %, and the
-/// times of the family's 40 batches differ from the family's time by up to 20 %.
+/// A campaign in which each family's time is `slowness` times the usual time, with a deviation of up to 2 %.
+/// Each family has 40 batches, whose times differ from the family's time by up to 20 %.
 Campaign night(const std::string& seed, const Slowness& slowness,
                std::vector<std::string> subjects = {"mine", "wang"}, int families = 20) {
   std::map<CountsKey, Counts> all;
@@ -244,8 +244,8 @@ TEST(ChangedTimes, ASubjectThatIsSlowerEverywhereIsToldOnce) {
   EXPECT_NEAR(alone[0].ratio() / 118, 1, 0.05);
 }
 
-// If a family's times differ by a factor of 1.5 between the nights of the baseline, a difference by the same
-// factor in the present night is no change.
+// If a family's times differ by a factor of 1.5 between nights of the baseline, the same factor in the
+// present night is no change.
 TEST(ChangedTimes, TheNightsOfTheBaselineShowTheSpread) {
   std::vector<Campaign> nights;
   for (int i = 0; i < 8; ++i) nights.push_back(night(std::to_string(i), i % 2 == 0 ? one_slower : usual));
@@ -266,8 +266,8 @@ TEST(ChangedTimes, ATimeThatWasUncertainSaysLittle) {
   EXPECT_THAT(changed(night("2", usual), {before}), IsEmpty());
 }
 
-// A single family does not show how much the times of families usually vary. So the times of a few families
-// are compared with the times of other subjects.
+// The times of a few families do not show how much the times of families usually vary. So these times are
+// compared with the times of other subjects.
 TEST(ChangedTimes, OfAFewFamiliesAreComparedWithOtherSubjects) {
   const auto few = [](double factor) {
     return [factor](const CountsKey& key) {
@@ -312,7 +312,7 @@ TEST(ChangedTimes, AreComparedByWelchsTest) {
                            night_of([](int i) { return std::pair(60, i == last ? 140 : 110); })};
   const Campaign now =
       night_of([](int i) { return i == last ? std::pair(300, 700) : std::pair(100 + i, 200 + 3 * i); });
-  constexpr double any = 1000;  // so large a risk that every time counts as changed
+  constexpr double any = 1000;  // with so large a risk, every time counts as changed
   const ComparedTimes found = compare_times(now, before, any);
   ASSERT_THAT(found.changed, SizeIs(10));
   EXPECT_EQ(found.compared, 10);

@@ -157,7 +157,7 @@ std::vector<std::string> keys_of(const nlohmann::ordered_json& object) {
   return keys;
 }
 
-/// The keys, in order, of the properties of an object in the schema. `path` is a JSON pointer to the object.
+/// The keys of an object's properties in the schema, in order. `path` is a JSON pointer to the object.
 std::vector<std::string> keys_in_schema(const char* path) {
   std::ifstream file(NEARMISS_SCHEMA);
   const auto schema = nlohmann::ordered_json::parse(file);
@@ -204,7 +204,7 @@ void expect_in_csv(const Fields& fields, const Counts& counts, const NamedCounts
               std::to_string((counts.*counter.member)[i]));
 }
 
-/// Expects nothing of members that are not numbers, such as histograms.
+/// Members that are not numbers, such as histograms, need not be in the CSV file.
 template <class Member>
 void expect_in_csv(const Fields& /*fields*/, const Counts& /*counts*/,
                    const Counter<Counts, Member>& /*counter*/) {}
@@ -257,7 +257,7 @@ TEST(FamilyClass, IsThatOfTheNameWithoutItsParameter) {
 TEST(FamilyClass, OfVerticesAndEdgesIsThatOfTheirFamily) {
   EXPECT_EQ(class_of("v-scale@3~drawn"), QueryClass::extreme);
   EXPECT_EQ(class_of("v-one-point"), QueryClass::extreme);  // unlike the class of "one-point"
-  std::string name;                                         // a forged store may have any name
+  std::string name;                                         // the name in a forged store may be long
   for (int i = 0; i < 300'000; ++i) name += "v-";
   EXPECT_EQ(class_of(name + "scale"), QueryClass::unclassified);
 }

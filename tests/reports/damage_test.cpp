@@ -1,5 +1,5 @@
-// Loading a damaged store either fails or gives the whole campaign. A salvage takes only the intact part of
-// the store.
+// If a store is damaged, loading it either fails or gives the whole campaign. A salvage takes only the intact
+// part of the store.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -169,8 +169,8 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
         Change{nested_views(), "found other tables than those of a store", ""},
         Change{"CREATE TRIGGER t INSERT ON run BEGIN DELETE FROM run; END",
                "found other tables than those of a store", ""},
-        // The next two changes replace the table `seen`: by a view with endlessly many rows, and by a table
-        // with large computed values.
+        // The next two changes replace the table `seen`. The first change puts a view with endlessly many
+        // rows in its place, and the second puts a table with large computed values there.
         Change{"DROP TABLE seen; CREATE VIEW seen AS WITH RECURSIVE r(n) AS (SELECT 1 UNION ALL SELECT n "
                "FROM r) "
                "SELECT n AS rowid, n AS key, n AS value, n AS checksum FROM r",
@@ -194,7 +194,7 @@ TEST_F(DamageTest, OfOtherSortsIsRefused) {
   }
 }
 
-/// Changes what the table `contents` says about `table`: the number of rows and the sum of their checksums.
+/// Changes the number of rows, and the sum of their checksums, that the table `contents` claims for `table`.
 void claim_rows(const std::filesystem::path& store, const std::string& table, const std::string& rows,
                 std::uint64_t sum = 0) {
   const std::string key = '"' + table + '"';

@@ -97,8 +97,8 @@ TEST(CommonFactors, CountsMergeInAnyOrder) {
   EXPECT_EQ(forward.factors.at(basic), (FactorCounts{128, 20}));
 }
 
-/// For every edge length 2^-30, 2^-29 .. 2^30, counts the answers to `each` collisions, and to as many
-/// queries that are no collisions.
+/// Counts the answers to `each` collisions, and to `each` queries that are no collisions, for every edge
+/// length 2^-30, 2^-29 .. 2^30.
 template <class Missed, class Reported>
 FactorTable answers(Kind kind, int each, const Missed& missed, const Reported& reported) {
   FactorTable table;
@@ -126,8 +126,8 @@ TEST(RightRange, IsEverythingIfNothingIsWrong) {
 }
 
 TEST(RightRange, EndsWhereMissesBegin) {
-  // A CCD whose distance function has an absolute threshold may miss one collision in four for edges below a
-  // centimetre.
+  // This is how a CCD may behave if its distance function has an absolute threshold: among edges below a
+  // centimetre, it misses one collision in four.
   const auto below = [](int x, int i) { return x < -7 && i % 4 == 0; };
   const RightRange range = range_of(answers(Kind::edge_edge, 8, below, never));
   EXPECT_THAT(range.exponents, Optional(Pair(-7, 30)));
@@ -146,7 +146,7 @@ TEST(RightRange, IsNotMeasuredByFalsePositivesWhereEverythingIsMissed) {
 TEST(RightRange, NeedsEvidence) {
   EXPECT_TRUE(range_of(answers(Kind::edge_edge, 1, never, never)).too_few);
   const auto always = [](int /*x*/, int /*i*/) { return true; };
-  EXPECT_FALSE(range_of(answers(Kind::edge_edge, 8, never, always)).exponents);  // it always says yes
+  EXPECT_FALSE(range_of(answers(Kind::edge_edge, 8, never, always)).exponents);  // it reports everything
 
   // The range ends before a size for which there are no answers.
   FactorTable table = answers(Kind::edge_edge, 8, never, never);

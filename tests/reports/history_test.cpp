@@ -18,7 +18,7 @@ using ::testing::IsEmpty;
 
 const std::string contact = "vt simple-root inside in-face";
 
-/// What the report of a nightly campaign says about the plug-in `mine`.
+/// The statements about the plug-in `mine` in the report of a nightly campaign.
 struct Said {
   std::string version;
   std::vector<std::string> seen = {}, created = {}, gone = {};  // signatures
@@ -99,8 +99,8 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1"}, 1);
   write_night(3, {.version = "2", .seen = {"a", "b"}, .created = {"a", "b"}, .worse = {"uniform"}}, 2);
-  // The new way to fail and the worse rate of `sliver` in night 4 are no events: they come from version 2,
-  // which is an event of night 3.
+  // In night 4, the new way to fail and the worse rate of `sliver` are no events. They come from version 2,
+  // and version 2 is an event of night 3 already.
   write_night(4, {.version = "2", .seen = {"a", "c"}, .created = {"c"}, .worse = {"uniform", "sliver"}}, 3);
   write_night(5, {.version = "3", .gone = {"a", "b"}, .slower = 4, .ns = 400}, 4);
   write_night(6, {.version = "3", .gone = {"a", "b", "c"}, .slower = 3.5, .ns = 390}, 5);
@@ -130,8 +130,9 @@ TEST_F(HistoryOfNights, TellsEachChangeInTheNightInWhichItCame) {
       HasSubstr("2026-11-09  FAIL  1,000  mine: 1 new way to fail: false-negative, a; mine: version"));
 }
 
-// In this history, nearmiss sees no change of the subject's code. If the subject is a program (pipe:...),
-// nearmiss never sees a change of the program's code, because nearmiss does not know this code.
+// In this history, nearmiss sees no change of the subject's code, although the failures change. This happens
+// with programs (pipe:...): nearmiss does not know a program's code, and so never sees that the code has
+// changed.
 TEST_F(HistoryOfNights, TellsAnotherFailureOfTheSameCodeAfterARepair) {
   write_night(1, {.version = "1"});
   write_night(2, {.version = "1", .seen = {"a"}, .created = {"a"}}, 1);

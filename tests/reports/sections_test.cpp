@@ -129,8 +129,8 @@ TEST(OptionSweeps, AreInTheOrderOfClassesAndValuesWithBothKindsTogether) {
   EXPECT_EQ(json[2]["class"], "degenerate");
 }
 
-/// A sweep of the option max_iter in an ordinary and in a degenerate family. Each list has pairs of a value
-/// of max_iter and the number of misses among 1,000 collisions.
+/// A sweep of the option max_iter in an ordinary and in a degenerate family. Each list has pairs: a value of
+/// max_iter, and the number of misses among 1,000 collisions with this value.
 Statistics budgets(const std::vector<std::pair<int, std::uint64_t>>& ordinary,
                    const std::vector<std::pair<int, std::uint64_t>>& degenerate) {
   Statistics statistics;
@@ -175,7 +175,8 @@ TEST(Cliffs, AreNotSeenInChance) {
   EXPECT_FALSE(summary_json({{}, sweep_of_option()}).contains("cliffs"));
 }
 
-/// A scene with two steps. In each step, subjects are asked about 100 pairs of each kind; 900 are left out.
+/// A scene with two steps. In each step, subjects are asked about 100 pairs of each kind, and 900 pairs of
+/// each kind are left out.
 Statistics two_steps() {
   Statistics statistics;
   for (const char* step : {"scene:cloth#0", "scene:cloth#1"})

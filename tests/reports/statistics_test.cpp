@@ -1,4 +1,4 @@
-// Counting, merging, the order of classes, and the confidence bounds of rates.
+// Tests how statistics are counted and merged, the order of classes, and the confidence bounds of rates.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -282,8 +282,8 @@ TEST(PooledTest, IsABinomialOne) {
   EXPECT_EQ(pooled_test({}).either(), 1);
 }
 
-// For large numbers, the test uses the binomial distribution. Its p-value is larger than the exact one, but
-// only slightly if few of the queries fail.
+// For large numbers, fisher_test() uses the binomial distribution. The resulting p-value is larger than the
+// exact one. If few of the queries fail, it is only slightly larger.
 TEST(FisherTest, OfLargeNumbersIsNearTheBinomial) {
   const double small = fisher_test({60, 1ULL << 30}, {30, (1ULL << 30) - 1}).more;
   const double large = fisher_test({60, 1ULL << 31}, {30, 1ULL << 31}).more;

@@ -97,8 +97,8 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   std::filesystem::create_directory(file("killed"));
   {
     const Database db(file("a.db"));
-    // Without a cache, SQLite writes the change to the file before the commit. A process that is killed after
-    // this write and before the commit leaves the file in this state.
+    // Without a cache, SQLite writes the change to the file before the commit. If a process is killed between
+    // this write and the commit, it leaves the file in this state.
     db.execute(
         "PRAGMA cache_size = 0; BEGIN IMMEDIATE; DELETE FROM shard; PRAGMA user_version = 1;"
         "CREATE TABLE other AS WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 9999) "
@@ -111,7 +111,7 @@ TEST_F(StoreTest, AKillDuringAChangeOfTheFileItselfIsTakenBack) {
   EXPECT_EQ(read("a.db"), read("killed/a.db"));
 }
 
-// If a journal names another file, SQLite would delete that file.
+// A journal may name another file, which SQLite would delete.
 TEST_F(StoreTest, AJournalThatNamesAnotherFileIsRefused) {
   { Store(file("a.db"), info, shard).save(some_statistics("wang"), shard, {}); }
   write("precious", "mine");

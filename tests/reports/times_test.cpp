@@ -86,8 +86,8 @@ TEST(Times, StandInTheReport) {
   for (const char* name : {"median_ns", "q99_ns", "q99.9_ns"}) EXPECT_NEAR(json[name], 50, 10) << name;
 }
 
-// Five of six equally slow cases are kept: those whose provenances come first in the alphabet, in whatever
-// order the cases are added.
+// Five of six equally slow cases are kept: the five whose provenances come first in the alphabet. The order
+// in which the cases are added does not matter.
 TEST(Times, TiesOfTheSlowestAreInTheOrderOfTheirProvenance) {
   const auto kept = [](const std::string& order) {
     SubjectTimes times;
@@ -114,7 +114,7 @@ constexpr TimeError too_late{.after = 0.125, .promised = true, .late = true};
 
 const Query hit = testing::falling_vertex(0.25, 0.25, 1, -1);
 
-/// Counters of a subject that reports a collision with each of the time errors `times`, at `ns` per query.
+/// Counters of a subject that reports one collision for each time error in `times`, and takes `ns` per query.
 Counts counts_of(const std::vector<TimeError>& times, std::uint64_t ns = 100) {
   Counts counts;
   for (const TimeError& time : times)
@@ -182,7 +182,7 @@ TEST(ImpactTimes, ALateTimeInADirectedSearchKeepsASubjectOffTheFront) {
   EXPECT_TRUE(json["front_by_earliness"].empty());
   EXPECT_EQ(json["subjects"]["a"]["late"], 1);
   EXPECT_EQ(json["subjects"]["a"]["times_promised"], 2);
-  EXPECT_EQ(json["subjects"]["a"]["q99_time_error"][1], 0.02);  // counts only timed families, as rates do
+  EXPECT_EQ(json["subjects"]["a"]["q99_time_error"][1], 0.02);  // only timed families count, as in rates
   EXPECT_EQ(json["subjects"]["a"]["max_time_error"], 0.125);
 }
 

@@ -62,7 +62,8 @@ TEST(TradeOff, WhatIsNotTimedCountsForDistancesAlone) {
   EXPECT_EQ(json["sound"], false);
 }
 
-// Slow queries, and queries outside the subject's contract, are failures only on request, as in verdicts.
+// Queries that take too long, and queries outside the subject's contract, are failures only on request, as in
+// verdicts.
 TEST(TradeOff, ASubjectThatDidNotFailIsSound) {
   Statistics statistics;
   Counts& some = statistics.counts[at("a")] = counts(100, 50, 0, 10, 100);
@@ -107,8 +108,8 @@ Statistics farthest_at(const std::map<std::string, double>& parts) {
   return statistics;
 }
 
-/// The power of ε, the epsilon of a scalar, that is fitted to the distances of a ladder, for all families
-/// together; null if there is no fit.
+/// The fit of a power of ε to the distances of a ladder, for all families together. ε is the epsilon of a
+/// scalar. The result is null if there is no fit.
 nlohmann::ordered_json fit(const std::map<std::string, double>& parts) {
   const auto all = ladder_json(farthest_at(parts))["fits"];
   return all.empty() ? nlohmann::ordered_json() : all[0];
@@ -166,8 +167,8 @@ TEST(Ladder, TheFitIsTheSlopeOfTheLogarithms) {
       ladder_table(farthest_at(parts)),
       HasSubstr(
           "\nwang: the farthest are at 1 to 1 of the claimed distance for 4 subjects with 4 precisions\n"));
-  // The claimed distances go as ε^(1/4). If the farthest distances, divided by the
-  // claimed ones, go as ε, the exponent is 1/4 + 1.
+  // The claimed distances are proportional to ε^(1/4). If the farthest distances, divided by the claimed
+  // ones, are proportional to ε, the exponent is 1/4 + 1.
   EXPECT_NEAR(fit({{"wang:p24", 1}, {"wang:p28", 0x1p-4}, {"wang:p32", 0x1p-8}})["exponent"], 1.25, 1e-4);
   for (const char* no_third : {"wang:p200", "wang:float"})
     EXPECT_TRUE(fit({{"wang:p24", 1}, {"wang:p28", 1}, {no_third, 1}}).is_null());
@@ -256,8 +257,8 @@ Statistics some_statistics() {
   return statistics;
 }
 
-// Only subjects that pass queries on to finer stages have rows. `wang` was not asked about edges, so only
-// times for vertices and triangles are divided by its times.
+// Only subjects that pass queries on to finer stages have rows. `wang` was not asked about pairs of edges, so
+// only times for vertices and triangles are divided by the times of `wang`.
 TEST(Deciders, AreCountedByFamilyOverBothKinds) {
   const auto json = deciders_json(some_statistics());
   ASSERT_EQ(json.size(), 3);

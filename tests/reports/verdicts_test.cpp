@@ -253,8 +253,8 @@ TEST(Headline, ASubjectOfWhichNothingWasAskedHasNotPassed) {
   EXPECT_FALSE(headline(of, std::nullopt).clean);
 }
 
-// A fault raises an alarm only in the first campaign that has it; a broken promise raises an alarm in every
-// campaign that has it.
+// A fault raises an alarm only in the first campaign in which it occurs. A broken promise raises an alarm in
+// every campaign in which it occurs.
 TEST(Headline, AlarmsWhileAPromiseIsBrokenAndOnceAboutWhatLasts) {
   const CountsKey key{"a", Kind::vertex_triangle, "uniform"};
   const Campaign good = campaign("1", {{key, counts(9, 5, 0, 0)}});

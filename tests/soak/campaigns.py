@@ -1,4 +1,4 @@
-"""Campaigns that take several runs, and checks that their results are those of a single run."""
+"""Campaigns that take several runs. Checks that their results are the same as in a single run."""
 
 import json
 import pathlib
@@ -39,7 +39,7 @@ class Failure(Exception):
 
 
 def without(value, subject):
-    """A report without times. Unless `subject` is None, everything about this subject is left out,
+    """A report without times. If `subject` is not None, leaves out everything about this subject,
     too."""
     if isinstance(value, dict):
         return {
@@ -73,13 +73,13 @@ class Campaign:
         draw = random.Random(f'{seed} campaign {number}')
         self.number, self.machine = number, machine
         plugin = draw.choice([*CHOSEN_BY_QUERY, *CHOSEN_BY_CHANCE])
-        rate = 200 if plugin in CHOSEN_BY_CHANCE else 2000  # few: each query may time out
+        rate = 200 if plugin in CHOSEN_BY_CHANCE else 2000  # 200: each query may time out
         self.size = int(draw.uniform(0.2, 1) * rate * seconds)
         self.left_out = CHOSEN_BY_CHANCE.get(plugin)
         self.options = ['--cases', str(self.size), '--seed', str(draw.randrange(1 << 32))]
         self.options += ['--subject', f'wang,basic,{machine.plugins / plugin}.so']
-        # If the plug-in's results are compared, each of its queries must take less time than the
-        # limit, even on a busy machine.
+        # If the plug-in's results are compared, none of its queries may exceed the time limit,
+        # even on a busy machine.
         limit = '100ms' if plugin in CHOSEN_BY_CHANCE else '30s'
         self.options += ['--query-time', limit, '--query-memory', '32M', '--compare', '64']
         if draw.random() < 0.25:
@@ -107,7 +107,8 @@ class Campaign:
         return [store.with_name(name) for name in names if store.with_name(name).exists()]
 
     def check_progress(self):
-        """Checks, in a copy, that the store is sound, and has all cases that it had before."""
+        """Copies the store, and checks that the copy is sound and has all cases that were saved
+        before."""
         copy = self.machine.folder / 'copy'
         shutil.rmtree(copy, ignore_errors=True)
         copy.mkdir()
@@ -161,7 +162,7 @@ class Campaign:
         report = json.loads(pathlib.Path(folder / 'report.json').read_text(encoding='utf-8'))
         shutil.rmtree(folder)
         self.faults = sum(each['seen'] for each in report['signatures'] if each['what'] == 'fault')
-        for verdict in report['verdicts']:  # a place in a list that depends on what is left out
+        for verdict in report['verdicts']:  # the index depends on what is left out
             place = verdict.pop('finding')
             verdict['shown'] = None if place is None else report['findings'][place]['provenance']
         if self.left_out:

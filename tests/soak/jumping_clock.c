@@ -1,6 +1,6 @@
 /* A clock that jumps; LD_PRELOAD loads it in place of libc's clock. Every call that asks for the time of day
- * gets a time up to NEARMISS_JUMP seconds before or after the true time. The clock that measures durations is
- * not changed. */
+ * gets a time up to NEARMISS_JUMP seconds before or after the true time. The clock that measures durations
+ * does not jump. */
 #define _GNU_SOURCE
 #include <stdlib.h>
 #include <sys/syscall.h>

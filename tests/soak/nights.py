@@ -40,8 +40,8 @@ class Machine:
 
         with (self.folder / 'said').open('w', encoding='utf-8') as said:
             # Python ignores SIGXFSZ, the signal for a file that is too large. If file sizes are
-            # limited, nearmiss inherits from Python that SIGXFSZ is ignored. So a write beyond the
-            # limit fails, but no signal ends nearmiss.
+            # limited, nearmiss inherits this from Python, and ignores SIGXFSZ, too. So a write
+            # beyond the limit fails, but no signal ends nearmiss.
             return subprocess.Popen(
                 [self.nearmiss, *command], cwd=self.folder, env=environment, preexec_fn=prepare,
                 stdout=subprocess.DEVNULL, stderr=said, restore_signals=largest_file is None,
@@ -87,8 +87,8 @@ class Machine:
 
 
 def catches(process, number):
-    """Whether a process is ready for a signal: it has a handler for the signal, or the signal is
-    SIGKILL."""
+    """Whether a process is ready for a signal. It is ready if it has a handler for the signal. It
+    is always ready for SIGKILL."""
     if number == signal.SIGKILL:
         return True
     try:
@@ -108,7 +108,8 @@ def last_save(store):
 
 
 class Night:
-    """One run of a campaign, and how it ends. The seed and the night's number decide all choices."""
+    """One run of a campaign, and how it ends. The seed and the night's number determine all
+    choices."""
 
     def __init__(self, number, seed, seconds):
         self.draw = random.Random(f'{seed} night {number}')
@@ -118,7 +119,7 @@ class Night:
         self.saves_first = self.draw.random() < 0.5
         self.room = self.draw.randrange(
             300_000
-        )  # bytes that can be written until the disk is full
+        )  # number of bytes that can be written before the disk is full
         self.jobs = self.draw.choice([1, 2, 3])
         self.jumps = self.draw.random() < 0.3
 

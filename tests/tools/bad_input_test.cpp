@@ -1,4 +1,5 @@
-// Tests the command line with bad input: nearmiss says in one short line what is wrong, and leaves no file.
+// Tests the command line with bad input. nearmiss must say in one short line what is wrong, and must leave no
+// file.
 #include <algorithm>
 #include <cstdlib>
 

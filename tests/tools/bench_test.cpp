@@ -14,7 +14,7 @@ namespace {
 using testing::CommandLine;
 using ::testing::HasSubstr;
 
-/// A line of a history: a run that timed one input, "own.vt". `times` has the ns per query of each pass.
+/// A line of a history, for a run that timed one input, "own.vt". `times` has the ns per query of each pass.
 std::string stored(const std::vector<std::string>& times, const std::string& cpu = "cpu",
                    const std::string& subject = "wang") {
   return fmt::format(
@@ -49,7 +49,7 @@ TEST_F(Bench, ComparesRunsPairByPair) {
   expect_comparison(before, history({"11", "22", "33", "44", "55", "90"}), "1.100    1.100-1.500  slower");
   expect_comparison(before, history({"9", "22", "33", "44", "55", "66"}),
                     "1.100    0.900-1.100  within noise");
-  // If there are many pairs of runs, the confidence interval leaves out extreme ratios of times.
+  // With many pairs of runs, the confidence interval leaves out extreme ratios of times.
   std::vector<std::string> times(11, "8");
   times[3] = "90";
   const std::string tens = history(std::vector<std::string>(11, "10"));

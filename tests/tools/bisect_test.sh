@@ -50,8 +50,8 @@ for right in 0 1; do
   git worktree list | grep -q bisect && fail "a worktree is left"
 done
 
-# Commit 2 does not build, so either commit 2 or commit 3 may have broken the CCD: tools/bisect
-# prints both commits.
+# Commit 2 does not build, so commit 2 or commit 3 may have broken the CCD. tools/bisect prints
+# both commits.
 git checkout -q --orphan skipped
 commit 1 1; commit 2 nonsense; commit 3 0
 code=0
@@ -115,8 +115,8 @@ refused "found --from 'nowhere'" --from nowhere --build "$build" --subject ./min
 refused 'found no --build' --from HEAD --subject ./mine.so ../q.vt
 refused 'found no case' --from HEAD --build "$build" --subject ./mine.so
 refused 'cannot be tried' --from HEAD~1 --build "$build" --subject ./mine.so ../q.vt
-# If OLD (--from) or NEW (--to) cannot be built, tools/bisect prints the last line of the build's output as
-# the reason, and also the last ten lines.
+# If OLD (--from) or NEW (--to) cannot be built, tools/bisect gives the last line of the build's
+# output as the reason, and also prints the last ten lines.
 refused '   skipped: the build fails: no such header' --from HEAD~2 --build 'echo no such header; echo; false' --subject ./mine.so ../q.vt
 refused $'\n16\n17\n18\n19\n20\n' --from HEAD~2 --build 'seq 20; false' --subject ./mine.so ../q.vt
 [[ -z $(git status --porcelain) ]] || fail "the user's files are changed"

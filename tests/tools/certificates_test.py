@@ -181,7 +181,8 @@ class Certificates(unittest.TestCase):
 
 
 def is_object(line):
-    """Whether a line is a JSON object that the checkers can read. They stop at any other line."""
+    """Whether a line is a JSON object that the checkers can read. The checkers stop at other
+    lines."""
     if len(line) > 1 << 19:
         return False
     try:

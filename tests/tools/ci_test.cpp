@@ -1,5 +1,5 @@
-// Tests results for other programs, such as systems of continuous integration, and the options --watch and
-// --config of campaigns.
+// Tests the results that nearmiss writes for other programs, such as systems of continuous integration. Also
+// tests the options --watch and --config of campaigns.
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -105,7 +105,8 @@ TEST_F(Ci, AFileDescribesACampaign) {
     write("wrong.toml", text);
     expect_refused("fuzz --config wrong.toml", {words});
   }
-  // In TOML, a list may have comments, line ends and a comma after its last element, and a number may have _.
+  // In TOML, a list may contain comments and line ends, and a comma may follow its last element. A number may
+  // contain _.
   write("odd.toml",
         "\xEF\xBB\xBFsubject = [  # \"never\", [\n  \"basic\" ,\n\n  'wang',  # ]\n]  # two\r\n"
         "family = [ \"uniform\", \"planted\", ]\ncases = 1_000\n");

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs .clusterfuzzlite/build.sh as OSS-Fuzz does, but without a container. Checks that the built targets run
-# without any file of this repository. Arguments name the targets; the default is two targets, of
-# which one tests a reader and the other decides queries. Keeps the build folder, because the first
-# build takes minutes.
+# without any file of this repository. Arguments name the targets. The default is two targets: one
+# tests a reader, and the other decides queries. Keeps the build folder, because the first build
+# takes minutes.
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"
 cd "$(dirname "$0")/../.."
@@ -12,9 +12,9 @@ options '' "$@"
 fail() { echo "$1" >&2; exit 1; }
 command -v clang++ >/dev/null || { echo "no clang++ here"; exit 77; }
 
-# The settings are those of the Dockerfile and of OSS-Fuzz's image base-builder for libFuzzer and the address
-# sanitizer, but with -O0, because optimisation would double the time of the build. The build uses one
-# process, because other tests run at the same time.
+# The settings come from the Dockerfile, and from OSS-Fuzz's image base-builder, which sets them
+# for libFuzzer and the address sanitizer. Only -O0 differs, because optimisation would double the
+# time of the build. The build uses one process, because other tests run at the same time.
 root=$PWD/build/clusterfuzzlite
 flags="-O0 -fno-omit-frame-pointer -gline-tables-only -DFUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION"
 flags+=" -fsanitize=address -fsanitize-address-use-after-scope -fsanitize=fuzzer-no-link"
@@ -26,7 +26,8 @@ mkdir -p "$SRC" "$WORK" "$OUT"
 cp .clusterfuzzlite/build.sh "$SRC/"
 bash -eux "$SRC/build.sh" "$@"
 
-# Runs the targets in another place, with another current folder and without environment variables.
+# Moves the targets to another folder, and runs them in another current folder and without
+# environment variables.
 away=$(mktemp -d)
 trap 'rm -rf "$away"' EXIT
 mv "$OUT" "$away/out"

@@ -25,7 +25,8 @@ Background::Background(const std::filesystem::path& folder, const std::string& a
                               " " + arguments + " >out.txt 2>error.txt";
   process_ = fork();
   if (process_ == 0) {
-    // If a shell has started the tests in the background, the tests and their children ignore SIGINT.
+    // If a shell has started the tests in the background, the tests ignore SIGINT, and their children inherit
+    // that.
     for (const int each : {SIGINT, SIGTERM, SIGHUP}) std::signal(each, SIG_DFL);
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(127);

@@ -69,8 +69,8 @@ class CommandLine : public testing::TemporaryFolder {
 
   static std::string plugin(const std::string& name);
 
-  /// Runs "nearmiss ARGUMENTS" in a shell in the test's folder. `before` stands before the command, for
-  /// example "ulimit -f 8;", and `redirections` after it, for example ">/dev/full" or "<&-".
+  /// Runs "nearmiss ARGUMENTS" in a shell in the test's folder. `before` is put before the command, for
+  /// example "ulimit -f 8;". `redirections` is put after the command, for example ">/dev/full" or "<&-".
   [[nodiscard]] Output run(const std::string& arguments, const std::string& before = "",
                            const std::string& redirections = "") const;
 
@@ -84,8 +84,8 @@ class CommandLine : public testing::TemporaryFolder {
   /// Runs "nearmiss report STORES", expects the exit code `code`, and returns the content of report.json.
   [[nodiscard]] nlohmann::json report_of(const std::string& stores, int code = 0) const;
 
-  /// An OBJ file of two triangles, the first at z = 0, the second at z = `height`. `last` is x and y of the
-  /// second triangle's last vertex.
+  /// An OBJ file of two triangles. The first is at z = 0, and the second is at z = `height`. `last` has x and
+  /// y of the second triangle's last vertex.
   static std::string two_triangles(const std::string& height, const std::string& last = "0.5 9");
 
   /// Writes two_triangles to start.obj and end.obj. Between these frames, the second triangle falls from

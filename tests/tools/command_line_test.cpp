@@ -28,8 +28,8 @@ TEST_F(CommandLine, OracleAnswersByEveryMethod) {
 }
 
 TEST_F(CommandLine, OracleSaysWhatAMethodDoesNotKnow) {
-  // The triangle is degenerate: it is an edge. The distance of the vertex from this edge is smallest at the
-  // time t with 2 t² = 1, and is exactly 1 then.
+  // The triangle is degenerate: it is an edge. The distance between the vertex and this edge is smallest at
+  // the time t with 2 t² = 1. Then the distance is exactly 1.
   write("q.vt", "0 -.5 1  -1 0 0  1 0 0  -1 0 0   -1 -.5 1  -1 -1 0  1 1 0  -1 -1 0   1\n");
   EXPECT_EQ(run("oracle --kind vt q.vt").out, "1\n");
   EXPECT_EQ(expect_code(1, "oracle --kind vt q.vt --method certificate").out, "-\n");
@@ -147,7 +147,7 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   const std::string scene = "scene start.obj end.obj --around 0 ";
   const json subjects =
       json_of(0, scene + "--leave-out boxes --bound pair,scene,100 --export pairs")["subjects"];
-  EXPECT_EQ(subjects.size(), 4);  // wang is asked with three bounds; basic, which uses no bound, only once
+  EXPECT_EQ(subjects.size(), 4);  // wang is asked with three bounds; basic uses no bound
   for (const char* name : {"basic", "wang", "wang@100"})
     EXPECT_EQ(subjects[name]["vt"]["collisions"], 3) << name;
   expect_refused(scene + "--export pairs", {"pairs.vt: exists already"});
@@ -155,7 +155,7 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   for (const char* kind : {"vt", "ee"})
     for (const char* count : {"queries", "collisions", "positives", "false_positives"})
       EXPECT_EQ(replayed["wang"][kind][count], subjects["wang"][kind][count]);
-  // The motion only translates the triangles, so the plan decides all pairs without a subject.
+  // The triangles only translate, so the plan decides all pairs and asks no subject.
   const json funnel = json_of(0, scene + "--verify-plan")["scenes"]["scene:start"]["vt"];
   EXPECT_THAT(read("error.txt"), HasSubstr("plan verified: "));
   EXPECT_EQ(funnel["asked"], 0);
@@ -177,7 +177,7 @@ TEST_F(CommandLine, SceneAsksAroundItsPairsIfTheyShowLittle) {
           HasSubstr("wang: the scene's 3 collisions show little: a miss rate below 63 % at 95 % confidence\n"
                     "around its pairs, 10,000 queries of the family mesh: wang missed 0 of "),
           HasSubstr("nearmiss fuzz --subject wang --mesh start.obj end.obj --family mesh")));
-  // Findings in queries around the scene's pairs do not replace findings in the pairs.
+  // Findings about queries around the scene's pairs do not replace findings about the pairs themselves.
   expect_code(1, "scene spikes@100 --subject " + plugin("never") + " --around 300 --db a.db");
   std::set<std::string> seen;
   for (const json& finding : report_of("a.db", 1)["findings"])
@@ -262,8 +262,8 @@ struct Shown {
 
 class ExitCodes : public CommandLine, public ::testing::WithParamInterface<Shown> {
  protected:
-  /// Writes 43 queries to q.vt. Most of the plug-ins that misbehave do this only for one query out of
-  /// NEARMISS_ONE_IN queries.
+  /// Writes 43 queries to q.vt. Most of the misbehaving plug-ins misbehave at only one query in
+  /// NEARMISS_ONE_IN.
   void SetUp() override {
     const std::string late = "0.95 0.01 1  0 0 0  1 0 0  0 1 0   0.95 0.01 -2  0 0 0  1 0 0  0 1 0\n";
     ASSERT_EQ(run("family uniform --kind vt --count 40").code, 0);

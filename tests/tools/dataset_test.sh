@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Writes a small data set twice, expects the same bytes, and checks the truths, proofs and checksums.
+# Writes a small data set twice, and expects the same bytes both times. Checks the truths, proofs
+# and checksums.
 # Usage: dataset_test.sh NEARMISS
 set -euo pipefail
 source "$(dirname "$0")/../../tools/options.sh"

@@ -1,5 +1,5 @@
-// A file that a command writes is complete or absent. No command loses a file of the user. All results in a
-// store come from the same build of nearmiss and of each plug-in.
+// If a command writes a file, the file is complete or absent. No command loses a file of the user. All
+// results in a store come from one build of nearmiss and one build of each plug-in.
 #include <unistd.h>
 
 #include <algorithm>
@@ -130,7 +130,7 @@ TEST_F(SameCode, ResultsOfAnotherPluginDoNotResumeOrMerge) {
   expect_refused("merge new.db a.db b.db", {"b.db: found plug-in always sha256 '" + digest() +
                                             "', expected '" + first + "' as in a.db"});
   expect_refused("report a.db b.db -o new", {"b.db: found plug-in always sha256"});
-  expect_code(1, "merge new.db a.db c.db");  // the runs have different seeds, and stay separate
+  expect_code(1, "merge new.db a.db c.db");  // runs with different seeds stay separate
   EXPECT_EQ(load_campaign(file("new.db")).runs.size(), 2);
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Runs tools/nightly in a copy of the tree in which set-up and libFuzzer do nothing. Checks exit codes and the
-# baseline. Checks that a night which is ended by a signal or by a full disk still writes a report, and leaves
-# no process behind. Also interrupts tools/run, and runs tools/libfuzzer twice at the same time.
+# Runs tools/nightly in a copy of the tree in which set-up and libFuzzer do nothing. Checks exit
+# codes and the baseline. Ends some nights by a signal, and others by a full disk. Checks that such
+# a night still writes a report, and leaves no process behind. Also interrupts tools/run, and runs
+# tools/libfuzzer twice at the same time.
 # Usage: nightly_test.sh NEARMISS. Exit code 77: this user cannot mount a small disk; all else was checked.
 # shellcheck disable=SC2016  # the command of --notify expands its own variables
 set -euo pipefail
@@ -14,7 +15,7 @@ nearmiss=$(realpath "${arguments[0]}")
 source=$(realpath "$(dirname "$0")/../..")
 folder=$(mktemp -d)
 trap 'cd /; kill $(jobs -pr) 2>/dev/null || true; umount --recursive "$folder" 2>/dev/null || true; rm -rf "$folder"' EXIT
-mount -t tmpfs none "$folder" 2>/dev/null || true  # only faster
+mount -t tmpfs none "$folder" 2>/dev/null || true  # only for speed
 
 fail() { echo "failed: $1"; tail -n 20 "$folder/said" "$folder"/*/last/log 2>/dev/null || true; exit 1; }
 expect() { "${@:2}" || fail "$1"; }
@@ -27,8 +28,8 @@ cd "$folder/tree"
 nothing() { printf '#!/bin/sh\n' | tee "$@" >/dev/null; chmod +x "$@"; }
 nothing tools/setup tools/libfuzzer
 
-# night CODE OPTIONS...: runs a night whose campaigns end after a few queries, not after a time. Expects the
-# exit code CODE.
+# night CODE OPTIONS...: runs a night. Its campaigns have a limit of a few queries in place of a
+# time limit. Expects the exit code CODE.
 night() {
   local code=0
   sleep_until_next_second
@@ -39,7 +40,7 @@ sleep_until_next_second() { local now=$EPOCHSECONDS; while ((EPOCHSECONDS == now
 cat >build/release/nearmiss <<END_OF_SCRIPT
 #!/usr/bin/env bash
 cases=60
-[[ " \$* " != *' --beyond-contract '* ]] || cases=600  # root parity misses collisions among these for any seed
+[[ " \$* " != *' --beyond-contract '* ]] || cases=600  # parity misses some of 600 queries
 for ((i = 1; i <= \$#; ++i)); do
   if [[ \${!i} == --time ]]; then exec "$nearmiss" "\${@:1:i-1}" --cases \$cases "\${@:i+2}"; fi
 done
@@ -157,13 +158,13 @@ refuted_bound 6s wang-time
 oracle_disagreement 6s 
 END_OF_HUNTS
 nothing tools/libfuzzer
-# The night keeps what libFuzzer found, and replays it.
+# The night keeps the inputs that libFuzzer found, and replays them.
 "$nearmiss" merge -v "$folder/found.db" "$folder/the nights/last/found.db" >"$folder/said" || fail "expected a replay of what was found"
 expect_said '^oracle: 4 queries'
 rm -r "$folder/the nights"
 
-# Two hunts at the same time share a folder of inputs, but not their findings. Only one of them replaces the
-# inputs.
+# Two hunts that run at the same time share a folder of inputs, but not their findings. Only one of
+# the two hunts replaces the inputs.
 mkdir -p fuzz build/fuzz "$folder/bin"
 cp -r "$source/fuzz/libfuzzer" fuzz/
 cp "$source/tools/libfuzzer" tools/
@@ -243,7 +244,8 @@ kill -TERM "$night"
 ends 130
 expect "expected a report" test -s build/run/report/index.html
 
-# A signal has the same effect while tools/libfuzzer runs. A signal during the set-up prevents the night.
+# A signal has the same effect while tools/libfuzzer runs. If a signal comes during the set-up,
+# there is no night.
 forever() { printf '#!/bin/bash\ntrap "exit 130" TERM\ntouch %s\nwhile :; do sleep 0.1; done\n' "$folder/$1.begun" >"tools/$1"; }
 rm build/release/nearmiss
 cp quick build/release/nearmiss

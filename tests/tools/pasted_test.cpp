@@ -80,7 +80,8 @@ class PastedTest : public testing::CommandLine {
         << answer << ' ' << time;
   }
 
-  /// As `passes_in_cpp`, but for a test in Python.
+  /// Whether a test in Python passes if its detector returns `answer` and `time`. The detector also prints
+  /// the coordinates that it gets.
   [[nodiscard]] bool passes_in_python(const std::string& test, const std::string& name,
                                       const std::string& answer, const std::string& time = "0") const {
     write("test.py", test +

@@ -21,7 +21,7 @@ TEST_F(CommandLine, VerdictPrintsTheDistanceBoundAndWhoseItIs) {
   write("q.vt", hit + miss);
   const std::string wangs = run("verdict --kind vt --subject wang --distance-bound q.vt").out;
   EXPECT_THAT(wangs, MatchesRegex("1 proximity 0x1p-1 0x[^ ]* claimed\n0 0x[^ ]* claimed\n"));
-  // basic claims no distance bound. So if basic reports a query, nearmiss prints wang's distance bound.
+  // basic claims no distance bound, so nearmiss prints wang's distance bound for each query.
   std::string expected = wangs;
   for (auto at = expected.find("claimed"); at != std::string::npos; at = expected.find("claimed"))
     expected.replace(at, 7, "wang");
@@ -88,7 +88,7 @@ TEST_F(CommandLine, FamilyShowsTheFactorsOfCrossedQueries) {
               ::testing::HasSubstr("exact vt: 0 of "));
 }
 
-// The output has at most twelve lines. Without the paths of plug-ins, no line has more than 100 columns.
+// The output has at most twelve lines. Apart from the paths of plug-ins, no line has more than 100 columns.
 TEST_F(CommandLine, AReplayOfOneCaseSaysWhatMatters) {
   std::string crowd = "wang,basic,exact,wang-scalar,wang-eps,wang-no-planes,wang-plain,basic-plain,bridson";
   write("long.vt",
@@ -158,7 +158,7 @@ TEST_F(SeparationOption, OracleSaysWhenTheDistanceFallsToIt) {
 }
 
 TEST_F(SeparationOption, OracleSaysYesToADistanceOfExactlyIt) {
-  // The distance in miss.vt falls to exactly 1.
+  // In miss.vt, the distance falls to exactly 1.
   for (const std::string method : {"filtered", "exact", "certificate", "all"})
     EXPECT_EQ(run("oracle --kind vt --toi --separation 1 miss.vt --method " + method).out,
               "1 0x1p+0 0x1p+0\n")
@@ -220,7 +220,7 @@ TEST_F(SeparationOption, ZeroAsksForContact) {
 }
 
 TEST_F(SeparationOption, ShrinkKeepsALateTime) {
-  expect_code(2, "shrink hit.vt" + promises);  // contact begins at t = 1/2, so the subject's time is not late
+  expect_code(2, "shrink hit.vt" + promises);  // contact is at t = 1/2, so the subject's time is not late
   expect_code(0, "shrink hit.vt -o late.case --separation 0.5" + promises);
   EXPECT_THAT(read("late.case"), HasSubstr("# late of always: vt "));
   const json counts = json_of(1, "replay late.case --no-shrink" + promises)["subjects"]["always"]["vt"];
@@ -244,8 +244,8 @@ TEST_F(SeparationOption, AReportSaysThatOfEachRun) {
 
 class Vertices : public testing::CommandLine {
  protected:
-  /// Writes two queries of one moving vertex. In q.ve, it passes the edge from (1, -1, 0) to (1, 1, 0) at a
-  /// distance of 1. In q.vv, it passes the first end of this edge at a distance of √2.
+  /// Writes two queries in which a vertex moves. In q.ve, the vertex passes the edge from (1, -1, 0) to (1,
+  /// 1, 0) at a distance of 1. In q.vv, the vertex passes the first end of this edge at a distance of √2.
   void SetUp() override {
     write("q.ve", "0 0 1  1 -1 0  1 1 0   2 0 1  1 -1 0  1 1 0\n");
     write("q.vv", "0 0 1  1 -1 0   2 0 1  1 -1 0\n");
@@ -351,8 +351,8 @@ class Convert : public CommandLine {
     expect_code(0, "convert " + path + " -o again");
     std::string all;
     for (const char* kind : {"vt", "ee", "vv", "ve"}) all += read(std::string("again/queries.") + kind);
-    // The rational numbers of a CSV file cannot express -0. This changes no query, because a coordinate -0
-    // means the same as 0.
+    // The rational numbers of a CSV file cannot express -0. The replacement changes no query, because a
+    // coordinate -0 means the same as 0.
     return std::regex_replace(all, std::regex("-0x0p"), "0x0p");
   }
 };

@@ -91,16 +91,15 @@ TEST_F(CommandLine, SimulateFindsAClothThatATextbookCcdTangles) {
     EXPECT_EQ(found["wang"][counter], none) << counter;
 }
 
-/// The provenance of a finding (family, seed and number) is enough to make its query again, even for a query
-/// of a simulation.
+/// The provenance of a finding (family, seed and number) is enough to make the query again, even if a
+/// simulation has asked the query.
 TEST_F(CommandLine, FuzzAsksWhatSimulationsAsk) {
   expect_code(1,
               "fuzz --family sim:hair@100:steps-per-frame=1,sim:cloths@50 --subject bullet-double,basic "
               "--cases 2000 -q --no-shrink --db a.db");
   EXPECT_EQ(report_of("a.db", 1)["findings"][0]["class"], "ordinary");
   const std::string findings = read("report/findings.csv");
-  const std::string provenance =
-      "sim:cloths@50:1:";  // bullet decides no pairs of edges, so hair is not asked
+  const std::string provenance = "sim:cloths@50:1:";  // not hair: bullet decides no pairs of edges
   const std::size_t index = findings.find(provenance) + provenance.size();
   const std::size_t end = findings.find('\n', index);
   const std::string query = expect_code(0, "family sim:cloths@50 --kind vt --count 1 --seed 1 --first " +

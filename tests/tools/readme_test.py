@@ -2,8 +2,8 @@
 README.md with the output that README.md shows.
 Usage: readme_test.py NEARMISS
 
-Changes some options so that a command takes less time. Otherwise, runs each command as it is
-printed, in a folder with the files that the commands name.
+Changes some options so that a command takes less time. Apart from that, runs each command as it is
+printed, in a folder that has the files that the commands name.
 """
 
 import os
@@ -43,7 +43,7 @@ SHORTER = (
 
 
 def commands_of(text):
-    """Yields the commands in indented blocks, and those in the first column of tables."""
+    """Yields the commands in indented blocks, and the commands in the first column of tables."""
     for line in text.splitlines():
         block = re.match(r'    (?:\$ )?(nearmiss .*)', line)
         row = re.match(r'\| `(nearmiss [^`]*)`', line)

@@ -55,7 +55,7 @@ TEST_F(Recording, HasTheLatestQueriesAndThoseThatAreKept) {
   EXPECT_EQ(fs::file_size(file("run.nmq")), 4096 + 20480);
   const auto counts = judged(1);
   EXPECT_THAT(read("error.txt"), Not(HasSubstr("left out")));
-  EXPECT_EQ(counts["queries"], 60 + 1);  // a quarter of the room for 80 records is only for kept queries
+  EXPECT_EQ(counts["queries"], 60 + 1);  // of the room for 80 records, a quarter is only for kept queries
   EXPECT_EQ(counts["false_negatives"], 6);
   expect_code(0, "convert run.nmq -o converted");
   EXPECT_THAT(read("converted/queries.vt"),
@@ -119,8 +119,8 @@ TEST_F(Recording, ThatIsCutInMidRecordHasTheRest) {
 }
 
 TEST_F(Recording, OfAShorterOrLongerStepIsJudgedThere) {
-  // The first contact is at t = 1/2. If tmax is 1/4, the contact comes too late, so the answers "no" are
-  // right. If tmax is 3/4 or 5/4, these answers are misses.
+  // The first contact is at t = 1/2. If tmax is 1/4, the step ends before the contact, so the answers "no"
+  // are right. If tmax is 3/4 or 5/4, these answers are misses.
   ASSERT_EQ(record("20 tmax 0.25"), 0);
   auto counts = judged(0);
   EXPECT_EQ(counts["queries"], 20);
@@ -144,7 +144,8 @@ std::string falling(const std::string& z0, const std::string& z1, const std::str
 }
 
 TEST_F(Recording, EachAnswerToTheSameQueryIsJudged) {
-  // As in a line search, a query is asked again with a shorter step (tmax). Some answers have no time.
+  // The program asks a query again with a shorter step (tmax), as a line search does. Some answers have no
+  // time.
   const auto counts =
       judged_lines(1, falling("1.1", "-1.2", "0.7", 1, "0.3") + falling("1.1", "-1.2", "0.61", 1, "0.55") +
                           falling("1.1", "-1.2", "0.61", 1, "0.55") + falling("1", "0.5", "0.3", 1, "nan") +

@@ -55,7 +55,7 @@ class ResultTable(unittest.TestCase):
             self.assertEqual(shown == "0", missed == 0)
 
     def test_the_shortest_query_is_one_that_was_found(self):
-        self.assertNotIn(("wang", "vt"), self.rows)  # it misses nothing
+        self.assertNotIn(("wang", "vt"), self.rows)  # wang misses nothing
         numbers = self.rows["basic", "vt"][2].split()
         shown = [float.fromhex(x) if "x" in x else float(x) for x in numbers]
         of_basic = [each for each in self.report["findings"] if each["subject"] == "basic"]

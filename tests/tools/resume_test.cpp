@@ -1,6 +1,6 @@
-// Tests that a campaign gives the same report even if it is interrupted, killed, divided into shards, or run
-// by more threads. Also tests the comparison of two versions of a CCD: their names, the queries that the
-// second version fixes or breaks, and the replay of a broken query.
+// Tests that a campaign gives the same report if it is interrupted, killed, divided into shards, or run by
+// more threads. Also tests the comparison of two versions of a CCD: their names, the queries that the second
+// version fixes or breaks, and the replay of a broken query.
 #include <chrono>
 #include <csignal>
 
@@ -48,7 +48,7 @@ class Resume : public CommandLine {
 };
 
 TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
-  // All of these subjects, one of which is a plug-in, have findings in these families.
+  // One of these subjects is a plug-in. All of these subjects have findings in these families.
   const std::string campaign =
       "fuzz --cases 1500 --seed 9 --family small-integer,uniform,planted,v-uniform --subject basic,wang," +
       plugin("sampling") + ":tolerance=0";
@@ -63,7 +63,7 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
     EXPECT_EQ(finding["shrunk"], finding["original"]);
   expect_code(1, campaign + " --resume --db plain.db");
   json later = timeless_report("plain.db");
-  later["runs"] = report["runs"];  // the runs differ: only one command has --no-shrink
+  later["runs"] = report["runs"];  // only one of the commands has --no-shrink
   EXPECT_EQ(json::diff(later, report), json::array());
 
   for (const std::string shard : {"2", "0", "1"})
@@ -72,8 +72,8 @@ TEST_F(Resume, TheReportIsTheSameHoweverTheCampaignWasRun) {
   EXPECT_EQ(json::diff(timeless_report("merged.db"), report), json::array());
 
   int kills = 0;
-  // Some delays before a signal are longer than the interval between two saves. The delays grow with the
-  // number of kills, so that the campaign completes even on a slow machine.
+  // Some delays before a signal are longer than the interval between two saves. The delays grow from kill to
+  // kill, so that the campaign completes even on a slow machine.
   while (run_until_a_signal(campaign, std::chrono::milliseconds(337 * kills % 1000 + 50 * kills),
                             kills % 4 == 3 ? SIGINT : SIGKILL) != 1)
     ++kills;
@@ -111,7 +111,7 @@ TEST_F(Resume, TheCommandInAReportGivesTheSameAgain) {
   ASSERT_EQ(again.rfind("nearmiss ", 0), 0);
   EXPECT_EQ(run(again.substr(9) + " --db again.db").code, code);
   json other = timeless_report("again.db");
-  other["runs"] = report["runs"];  // one command limits the cases, the other the time
+  other["runs"] = report["runs"];  // one command limits the cases, and the other limits the time
   EXPECT_EQ(other, report);
 }
 
@@ -221,7 +221,7 @@ TEST_F(VersionsOfACcd, ThatAreProgramsAreNamedAndReplayedByTheirFiles) {
   }
   expect_refused("bench --subject '" + python + "one.py," + python + "one.py'",
                  {"such as 'NAME=pipe:" NEARMISS_PYTHON " one.py'"});
-  // A word too long for a file name must not be taken for a file.
+  // A word that is too long for a file name must not be taken for a file.
   expect_refused("bench --subject '" + python + "one.py," + python + "one.py " + std::string(300, 'x') + "'",
                  {"two subjects named"});
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs every script in a copy of the tree, with --help and with --nonsense. Checks that the script prints its
-# usage for --help, refuses --nonsense, and changes nothing. Programs that would change something, such as
-# cmake and sbatch, are replaced by a program that only records the call.
+# usage for --help, refuses --nonsense, and changes nothing. The test replaces programs that would
+# change something, such as cmake and sbatch, by a program that only records the call.
 # Usage: scripts_test.sh NEARMISS
 # shellcheck disable=SC2086  # several words in $command
 set -euo pipefail

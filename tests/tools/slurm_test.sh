@@ -69,7 +69,7 @@ SlurmctldHost=$(hostname -s)(127.0.0.1)
 SlurmUser=$(id -un)
 SlurmdUser=$(id -un)
 AuthType=auth/munge
-# A requeued task waits in the queue until its credential expires, so the credential's life is short here.
+# A requeued task waits in the queue until its credential expires, so credentials expire soon here.
 AuthInfo=socket=$folder/munge,cred_expire=5
 ProctrackType=proctrack/linuxproc
 TaskPlugin=task/none
@@ -113,8 +113,9 @@ expect_said "found --shards 'none'"
 expect_code 2 "${campaign[@]}" "${fuzz[@]}" --subject none
 expect_said "nearmiss: "
 
-# Holds the campaign until the second task is cancelled. When the other two tasks have saved something, kills
-# the first task, and sends the third task the signal that its time limit is near.
+# Holds the campaign until the second task is cancelled. Waits until the other two tasks have saved
+# something. Then kills the first task, and sends the third task the signal that says that its time
+# limit is near.
 expect_code 0 "${campaign[@]}" "${fuzz[@]}" -- --hold
 IFS=, read -r array report <"$results/jobs"
 scancel "${array}_1"
@@ -126,9 +127,9 @@ process_of() {
   found=$(grep -lsz "^$results/shard-$1.db$" /proc/[0-9]*/cmdline) && basename "${found%/cmdline}"
 }
 saved() { { "$nearmiss" report "$results/shard-$1.db" -o "$folder/peek" || (($? == 1)); } | grep wang; }
-# Whether both the first and the third task have saved something. Stops the processes of both
-# tasks, so that neither task can end. If one of the tasks has saved nothing, lets both processes
-# go on.
+# Whether both the first and the third task have saved something. Stops the processes of both tasks
+# while it looks, so that neither task can end. If a task has saved nothing yet, lets both
+# processes go on.
 both_saved() {
   first=$(process_of 0) && third=$(process_of 2) && kill -STOP "$first" "$third" || return 1
   if saved 0 && saved 2; then return; fi

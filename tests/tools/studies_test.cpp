@@ -223,7 +223,7 @@ TEST_F(Paper, AReportShowsTheClaims) {
 }
 
 // The table in ccd/README.md has a row for each claim of the paper that nearmiss measures. The row quotes the
-// words of the claim.
+// claim.
 TEST_F(Paper, EachClaimIsInTheTable) {
   std::ifstream file(std::filesystem::path(NEARMISS_README).parent_path() / "ccd/README.md");
   const std::string readme((std::istreambuf_iterator<char>(file)), {});

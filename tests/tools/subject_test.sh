@@ -29,7 +29,8 @@ printf '%s\n' 'add_library(foreign::foreign STATIC IMPORTED)' 'set_target_proper
   "  IMPORTED_LOCATION $folder/lib/libforeign.a INTERFACE_INCLUDE_DIRECTORIES \"$root/tests/plugin;$eigen\")" \
   >lib/cmake/foreign/foreignConfig.cmake
 export PKG_CONFIG_PATH=$folder/lib CMAKE_PREFIX_PATH=$folder
-# The flags of a user whose compiler hides symbols. The plug-in's one function must still be visible.
+# These are the flags of a user whose compiler hides symbols. The one function that a plug-in
+# exports must still be visible.
 by_flags=(-- -fvisibility=hidden -I"$root/tests/plugin" -isystem "$eigen" lib/libforeign.a)
 
 # adapter NAME MEMBERS: writes NAME.cpp, an adapter of three lines.
@@ -69,7 +70,7 @@ declare -A hit=(
   [vv]='0 0 2  0 0 0   0 0 0.25  0 0 0'
   [ve]='0 0 2  -1 0 0  1 0 0   0 0 0.25  -1 0 0  1 0 0'
 )
-half='1 unspecified 0x1\.fffffff.*p-2'  # 1/2, less a millionth of it
+half='1 unspecified 0x1\.fffffff.*p-2'  # slightly less than 1/2
 
 # The signatures of ipc-toolkit: member functions with default arguments, for all kinds.
 narrow=NEARMISS_CALL\(foreign::ipc::Narrow
@@ -87,9 +88,10 @@ adapter plain '.vertex_triangle(foreign::plain::vertex_triangle).edge_edge(forei
 compile plain ADAPTER "${by_flags[@]}" -std=c++20
 is plain 'vt and ee and vv; 24 bits; no time; batches of 1'
 
-# A plug-in with several detectors. "contract" says that its times are lower bounds; its signature implies
-# another sort of time. The functions of "eltopo" are overloaded and take indices. "still" is a filter of
-# steps that lets nothing move. "mixed" takes separations for only one of its kinds.
+# A plug-in with several detectors. "contract" says that its times are lower bounds, although its
+# signature implies another sort of time. The functions of "eltopo" are overloaded and take
+# indices. "still" is a filter of steps that lets nothing move. "mixed" takes separations for only
+# one of its kinds.
 cat >all.cpp <<'END'
 #include "foreign.hpp"
 #include "ccd/nearmiss_functions.hpp"
@@ -126,7 +128,7 @@ for each in 'vt and ee; 53 bits; an estimate of the time; takes a separation; ba
   'vv; 53 bits; an estimate of the time; takes a separation for ee; batches of 1'; do
   is all "$each"
 done
-# asked COMMAND OPTION...: expects that a command with 2,000 cases finds no failure.
+# asked COMMAND OPTION...: runs a command with 2,000 cases, and expects that it finds no failure.
 asked() { "$nearmiss" "$@" --cases 2000 >said 2>&1 || fail "$*: $(cat said)"; }
 asked distance --subject ./all.so:distances,./all.so:alone
 asked step --subject ./all.so:still

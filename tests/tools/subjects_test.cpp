@@ -53,7 +53,7 @@ TEST_F(CommandLine, PublishedCcdsAreFoundBesideTheExecutable) {
   EXPECT_THAT(refused.error, StartsWith("nearmiss: 'additive' is not built: run tools/subject -o /"));
 }
 
-// nearmiss refuses a worker of another build, because it would misread the worker's answers.
+// nearmiss refuses a worker of another build, because nearmiss could misread the answers of such a worker.
 TEST_F(CommandLine, AWorkerOfAnotherBuildIsRefused) {
   std::filesystem::copy_file(NEARMISS_EXECUTABLE, file("copied"));
   const auto worker = std::filesystem::path(NEARMISS_EXECUTABLE).parent_path() / "nearmiss-worker";
@@ -132,7 +132,7 @@ TEST_F(CommandLine, APluginMayBeInAnyFolder) {
   for (const std::string& command : {fuzz, fuzz + "--resume", std::string("report a.db -o report")})
     expect_code(1, command, there);
   const std::string again = read_json(folder + "/report/report.json")["findings"][0]["again"];
-  EXPECT_THAT(again, HasSubstr(" --subject ./never.so "));  // a store keeps no full path with a line end
+  EXPECT_THAT(again, HasSubstr(" --subject ./never.so "));  // a full path with a line end is not stored
 }
 
 TEST_F(CommandLine, TheLimitsOfAPublishedCcdAreThoseOfItsRun) {
@@ -162,8 +162,8 @@ TEST_F(CommandLine, QueriesBeyondAContractAreNotAskedOrCountedApart) {
     EXPECT_GT(count(keeping["faults"], "contract"), 0U);
     EXPECT_EQ(count(keeping["faults"], "contract") + count(beyond["faults"], "contract"),
               count(keeping, "queries"));
-    // The queries that break this contract have contact at the start, so all are collisions. The plug-in
-    // misses all of them.
+    // All queries that break this contract have contact at the start, so they are collisions. The plug-in
+    // misses all of these collisions.
     EXPECT_EQ(count(beyond, "false_negatives"), count(keeping["faults"], "contract"));
   }
 }

@@ -1,4 +1,5 @@
-// Tests trouble while a command runs: locks, interrupts, full disks, closed streams, and too little memory.
+// Tests what happens if there is trouble while a command runs: locks, interrupts, full disks, closed streams,
+// and too little memory.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -78,8 +79,8 @@ TEST_F(CommandLine, HostileArithmeticIsCorrectedAndReported) {
   const Output output = run("oracle --kind vt --distance q.vt", before);
   EXPECT_EQ(output.error, says);
   EXPECT_EQ(output.out, run("oracle --kind vt --distance q.vt").out);
-  // nearmiss also corrects the arithmetic, to rounding to nearest with subnormals, in the threads of a
-  // campaign and in the processes of the campaign's plug-ins.
+  // In the threads of a campaign, and in the processes of its plug-ins, nearmiss also sets the arithmetic to
+  // rounding to nearest with subnormals.
   const auto positives = [&](const std::string& preload) {
     const json subjects =
         json_of(1,
@@ -100,7 +101,7 @@ TEST_F(CommandLine, ACampaignOutlastsALockOfItsStore) {
   {
     const testing::Database other(file("a.db"));
     other.execute("PRAGMA busy_timeout = 60000; BEGIN IMMEDIATE");
-    std::this_thread::sleep_for(std::chrono::seconds(3));  // a save waits less long for the lock
+    std::this_thread::sleep_for(std::chrono::seconds(3));  // this is longer than a save waits for the lock
     EXPECT_FALSE(campaign.has_ended()) << read("error.txt");
   }
   ASSERT_TRUE(wait_for_a_save(campaign)) << read("error.txt");
@@ -204,7 +205,8 @@ TEST_F(CommandLine, OutputWithoutAReaderIsAnError) {
   EXPECT_EQ(output.error, "nearmiss: standard output cannot be written: File too large\n");
 }
 
-/// A mesh of 20,000 triangles in the same place. A command needs minutes to look at all of their pairs.
+/// A mesh of 20,000 triangles in the same place. A command needs minutes to look at all pairs of these
+/// triangles.
 std::string crowd() {
   constexpr int triangles = 20'000;
   std::string vertices;
@@ -288,8 +290,8 @@ TEST_F(CommandLine, AClosedStandardStreamDoesNotMatterWhereItIsNotNeeded) {
   expect_code(0, replay + "a.db", "", "<&-");
   const Output silent = expect_code(0, replay + "b.db", "", "2>&-");
   EXPECT_THAT(silent.out, HasSubstr(" ok  wang: reports the collision\n"));
-  // Printed text never gets into the store or its lock file, although these files may get the descriptors of
-  // closed streams.
+  // The store and its lock file may get the descriptors of closed streams. Even then, printed text never gets
+  // into these files.
   EXPECT_EQ(run(replay + "c.db", "", "<&- >&- 2>&-").code, 2);
   for (const char* store : {"a.db", "b.db", "c.db"})
     EXPECT_EQ(run(std::string("report ") + store + " -o report").code, 0) << store;

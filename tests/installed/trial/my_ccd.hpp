@@ -18,8 +18,7 @@ inline double volume(const Point& p, const Point& a, const Point& b, const Point
   return dot(cross(b - a, c - a), p - a);
 }
 
-/// The positions from p0 to c0 are the positions of the vertices at t = 0. The positions from p1 to c1 are
-/// their positions at t = 1.
+/// The arguments p0 to c0 are the vertices' positions at t = 0, and p1 to c1 are their positions at t = 1.
 inline bool point_triangle_ccd(const Point& p0, const Point& a0, const Point& b0, const Point& c0,
                                const Point& p1, const Point& a1, const Point& b1, const Point& c1) {
   return volume(p0, a0, b0, c0) * volume(p1, a1, b1, c1) <= 0;

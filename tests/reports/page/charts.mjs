@@ -25,8 +25,8 @@ export async function showsSweeps(browser) {
 }
 
 /**
- * A family with a single value of its parameter is no sweep, even with a separation: its misses are shown
- * with those of other families.
+ * If a family has a single value of its parameter, it is no sweep, even with a separation. The page shows its
+ * misses together with those of other families.
  */
 export async function showsASingleValueBesideASweep(browser) {
   const family = "end-contact@1";

@@ -26,12 +26,12 @@ async function checkVerdicts(page, report) {
 }
 
 async function checkCharts(page, report) {
-  assert.equal(await page.isVisible("#error-time-section"), false); // it would repeat their tables
+  assert.equal(await page.isVisible("#error-time-section"), false); // it would only repeat the tables
   const reported = (kind) => new Set(Object.values(report.subjects).flatMap((ofKind) =>
     Object.entries(ofKind[kind].families).filter(([, each]) => each.false_positives > 0).map(([family]) => family)));
   assert.deepEqual(new Set(await page.locator("#rates .role-axis-label text").allTextContents().then((labels) =>
     labels.filter((label) => !label.endsWith("%")))), new Set([...reported("vt"), ...reported("ee")]));
-  assert.equal(await count(page, "#distances .mark-line path"), 8); // 2 subjects, 2 kinds, numbers and shares
+  assert.equal(await count(page, "#distances .mark-line path"), 8); // 2 subjects, 2 kinds; numbers and shares
   assert.equal(await count(page, "#distances .mark-rule.role-mark line"), 4); // the bound, in each panel
   assert.ok((await count(page, "#stages .mark-rect.role-mark path")) >= 4);
   assert.deepEqual(await page.locator("#stages .role-legend-label text").allTextContents(), report.stages);
@@ -327,10 +327,11 @@ export async function showsTheBaseline(browser) {
   assert.match(await page.locator(".verdict", { hasText: "basic-plain" }).textContent(), /not in the baseline/);
   assert.match(await page.textContent("#headline"), / ways? to fail as before, .* since the baseline\.$/);
   assert.equal(await count(page, "#headline.bad"), 1);
-  assert.equal(await count(page, "#before-and-now tbody tr"), 4); // basic and wang, of both kinds
+  assert.equal(await count(page, "#before-and-now tbody tr"), 4); // basic and wang, for both kinds
   assert.match(await page.textContent("#changed-facts"), /seed \(1 → 2\)/);
   const points = (panel) => count(page, `#error-time .concat_${panel}_group .mark-symbol.role-mark path`);
-  // One point for each of 3 subjects, and a cross for each of the 2 that missed.
+  // Each panel has a point for each of 3 subjects, and a cross for each of the 2 subjects that missed
+  // collisions.
   assert.deepEqual([await points(0), await points(1)], [5, 5]);
   assert.equal(await count(page, "#error-time .mark-symbol.role-mark path[fill='#b3261e']"), 4);
   assert.equal(await count(page, "#error-time .mark-line path"), 2); // the front

@@ -6,8 +6,8 @@ import { axeViolations } from "./access.mjs";
 import { count, folder, nearmiss, open, pageOf, run } from "./session.mjs";
 
 /**
- * In the first and the third of three nights, the name `mine` stands for a textbook CCD, which fails; in the
- * second night, for an exact CCD.
+ * In the first and the third of three nights, the subject `mine` is a textbook CCD, which misses collisions.
+ * In the second night, `mine` is an exact CCD.
  */
 export async function showsTheNights(browser) {
   const stores = [];

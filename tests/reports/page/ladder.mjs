@@ -27,7 +27,7 @@ async function showsErrorTimeOfTheLadder(page, { subjects, ladder, front_by_rate
   const pale = () => count(page, "#error-time .mark-symbol.role-mark path[opacity='0.1']");
   assert.equal(await pale(), 0);
   await page.locator("#error-time .role-legend-label text", { hasText: /^wang-tight$/ }).click();
-  assert.equal(await pale(), Object.keys(subjects).length); // half of the points in each of two panels
+  assert.equal(await pale(), Object.keys(subjects).length); // pale: half of the points, in each of two panels
   await page.locator("#error-time .role-legend-label text", { hasText: /^wang-tight$/ }).click();
 }
 

@@ -8,7 +8,7 @@ import { folder, jsonOf, plugin, run } from "./session.mjs";
 const schema = JSON.parse(readFileSync(new URL("../../../reports/report.schema.json", import.meta.url), "utf8"));
 const isValid = new ajv.default({ strict: false, allErrors: true }).compile(schema);
 
-/** The schema errors of a report, without indices of lists: an error of several entries counts once. */
+/** The schema errors of a report, without list indices: an error in several entries counts once. */
 const errors = (report) => (isValid(report) ? []
   : [...new Set(isValid.errors.map(({ instancePath, message, params }) => `${instancePath.replace(/\/\d+/g, "/N")} ${message} ${JSON.stringify(params)}`))]);
 

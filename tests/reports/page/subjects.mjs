@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { count, jsonOf, makeReport, open, pageOf, run } from "./session.mjs";
 
 /**
- * At first, all subjects are chosen, because there are enough colours for all. A change of the choice redraws
- * the charts that have a row or a line for each subject.
+ * At first, all subjects are chosen, because there are enough colours for all of them. If the user chooses
+ * other subjects, the page redraws the charts that have a row or a line for each subject.
  */
 export async function showsAChoiceOfManySubjects(browser) {
   const names = "wang:float,wang:p40,wang:p64,wang-tight:float,wang-tight:p40,wang,wang-tight,basic,basic-plain,exact,adaptive".split(",");
@@ -66,7 +66,7 @@ export async function showsAChoiceOfManySubjects(browser) {
   assert.equal(await count(page, "#counts tbody tr"), 2 * names.length); // tables show all subjects
 }
 
-/** The page shows what root parity misses beyond its contract, with an example, but not as a failure. */
+/** The page shows what root parity misses beyond its contract, and an example, but calls it no failure. */
 export async function showsWhatIsBeyondAContract(browser) {
   const page = await open(browser, makeReport("beyond", ["--cases", "4000", "--family", "small-integer", "--subject", "wang,parity", "--beyond-contract"]));
   assert.equal(jsonOf("beyond").headline.clean, true);
@@ -107,8 +107,10 @@ export async function drawsManySubjectsWithoutALadder(browser) {
   }
 }
 
-/** The page draws a report with a precision ladder (one CCD in several scalar types), subjects outside any
-    ladder, and a scene. */
+/**
+ * The page draws a report with a precision ladder (one CCD in several scalar types), with subjects outside
+ * any ladder, and with a scene.
+ */
 export async function drawsAMixOfRuns(browser) {
   run("scene", "spikes@100", "--subject", "wang,wang-time", "--db", "spikes.db");
   run("report", "many.db", "plain.db", "spikes.db", "-o", "mixed");

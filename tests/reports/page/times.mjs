@@ -128,8 +128,8 @@ export async function showsSeparations(browser) {
 }
 
 /**
- * At t*, the distance is the separation h for the first time. A lower bound after t* is not late if the
- * distance is never below h. The first query of touching.vt is such a case; the time for the other query is
+ * At t*, the distance equals the separation h for the first time. If the distance is never below h, a lower
+ * bound after t* is not late. The first query of touching.vt is of this sort. The time for the other query is
  * late.
  */
 export async function showsWhichTimesAreLate(browser) {
