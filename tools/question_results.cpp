@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -115,11 +116,22 @@ std::string simplest(const Findings& findings) {
 
 // --- JSON -----------------------------------------------------------------------------------------------
 
+constexpr std::array quantiles{std::pair{"p01", 0.01}, std::pair{"median", 0.5}, std::pair{"p99", 0.99}};
+
+ordered_json json_of(const Histogram& histogram) {
+  ordered_json json;
+  for (const auto& [name, part] : quantiles) {
+    const Bin bin = histogram.quantile(part);
+    json[name] = {bin.from, std::isfinite(bin.to) ? ordered_json(bin.to) : ordered_json(nullptr)};
+  }
+  json["bins"] = histogram.bins;
+  return json;
+}
+
 /// Quantiles of StepQuestion::Counts::kept in percent (null if there are none), and the count of each percent.
 ordered_json json_of(const KeptCounts& kept) {
   ordered_json json;
-  for (const auto& [name, part] :
-       {std::pair{"p01", 0.01}, std::pair{"median", 0.5}, std::pair{"p99", 0.99}}) {
+  for (const auto& [name, part] : quantiles) {
     const auto bin = quantile_bin(kept, part);
     json[name] = bin == kept.end() ? ordered_json(nullptr) : ordered_json(bin - kept.begin());
   }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <string>
@@ -83,6 +84,16 @@ TEST(StepQuestion, ThePartOfTheSafeMotionThatIsKeptIsMeasured) {
   constexpr double large = std::numeric_limits<double>::max() / 2;
   EXPECT_NEAR(judged(testing::scaled(free_falling, large), 0.25).kept, 0.25, 1e-15);
   EXPECT_EQ(judged(testing::scaled(free_falling, 0x1p-1000), 0.25).kept, 0.25);
+}
+
+TEST(StepQuestion, KeptPartsAreCountedInWholePercent) {
+  StepQuestion::Counts counts;
+  for (const double part : {0.25, 0.3, 0.999, 1.0})
+    counts.add(judged(free_falling, part), QueryClass::ordinary, [] { return ""; });
+  counts.add(judged(falling, 0.25), QueryClass::ordinary, [] { return ""; });  // half, but for a rounding
+  std::array<std::uint64_t, 101> expected{};
+  for (const std::size_t percent : {25, 30, 50, 99, 100}) ++expected[percent];
+  EXPECT_EQ(counts.kept, expected);
 }
 
 TEST(StepAnswer, IsAFaultIfItIsNotFiniteOrNegative) {

@@ -185,7 +185,8 @@ TEST_F(PastedTest, ExpectsATimeThatIsNotLate) {
 
 TEST_F(PastedTest, ExpectsATimeInTheStep) {
   const std::string name = "test_vertex_triangle";
-  const Tests of_collision = tests_of("hit.vt --subject " + plugin("invalid_time"));
+  write("zero.vt", "0 0 0  0 0 0  0 0 0  0 0 0   0 0 0  0 0 0  0 0 0  0 0 0\n");  // stays a collision
+  const Tests of_collision = tests_of("zero.vt --subject " + plugin("invalid_time"));
   EXPECT_THAT(of_collision.python, HasSubstr("# always gave no answer (vt invalid time).\n"));
   for (const char* function : {"detects", "time_of_impact"})
     EXPECT_THAT(of_collision.python,
@@ -198,7 +199,7 @@ TEST_F(PastedTest, ExpectsATimeInTheStep) {
   expect_both(false, of_false_positive, name, true, "2");
   expect_both(true, of_false_positive, name, false, "2");
   // If the subject gives no time, the printed test does not call time_of_impact.
-  const std::string python = tests_of("hit.vt --subject " + plugin("several") + ":told:answer=3").python;
+  const std::string python = tests_of("zero.vt --subject " + plugin("several") + ":told:answer=3").python;
   EXPECT_THAT(python, HasSubstr(" gave no answer (vt invalid answer).\n"));
   EXPECT_THAT(python, HasSubstr("    assert detects(start, end)\n"));
 }

@@ -224,7 +224,7 @@ TEST_F(SeparationOption, ShrinkKeepsALateTime) {
   expect_code(0, "shrink hit.vt -o late.case --separation 0.5" + promises);
   EXPECT_THAT(read("late.case"), HasSubstr("# late of always: vt "));
   const json counts = json_of(1, "replay late.case --no-shrink" + promises)["subjects"]["always"]["vt"];
-  EXPECT_THAT(read("error.txt"), HasSubstr("FAIL always: LATE, by 0.059 of the step\n"));
+  EXPECT_THAT(read("error.txt"), HasSubstr("FAIL always: LATE, by 0.386 of the step\n"));
   EXPECT_EQ(counts["late"], 1);
   EXPECT_EQ(counts["times_promised"], 1);
   EXPECT_EQ(counts["time_sort"], "lower-bound");
