@@ -6,7 +6,7 @@
 interrupted=false  # whether INT, TERM or HUP has come
 attended=          # the process to which these signals are passed on
 
-# Passes every signal on as TERM, because a program that a script runs in the background ignores INT.
+# Sends TERM, whichever signal has come: a program that a script has started in the background ignores INT.
 on_interrupt() {
   interrupted=true
   [[ -z $attended ]] || { kill -TERM -- "-$attended" || kill -TERM "$attended" || true; } 2>/dev/null

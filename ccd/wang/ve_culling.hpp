@@ -75,7 +75,7 @@ inline constexpr int spread_error_if_wide = 3700;
 
 namespace detail {
 
-// Whether |F̂| exceeds the threshold at those of the times t - h and t + h that are in [0, 1].
+// Returns whether |F̂| exceeds the threshold at t - h and at t + h. A time outside [0, 1] is not tested.
 template <class T>
 auto brackets_root(const Cubic<T>& F, T t, T h, T threshold) {
   using std::abs;

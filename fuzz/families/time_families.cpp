@@ -95,8 +95,8 @@ Weights outside(Random& random, Kind kind) {
   }
 }
 
-/// Weights of a point on the border. Vertex-triangle: on an edge of the triangle. Edge-edge: at an end of one
-/// of the two edges. In one of three cases, the point is a vertex of each primitive.
+/// Returns the weights of a point on the border: on an edge of the triangle (vertex-triangle), or at an end
+/// of one of the two edges (edge-edge). With a probability of 1/3, the point is a vertex of both primitives.
 Weights border(Random& random, Kind kind) {
   const int whole = random.integer(5, 8);
   const int along = random.one_in(3) ? 0 : random.integer(1, whole - 1);

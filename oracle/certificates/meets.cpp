@@ -311,8 +311,9 @@ std::optional<std::string> certify_touch(Root time, const Meeting& meeting) {
   }
 }
 
-/// The proof at a time right after `after`, the time at which the distance falls below h. The search tries
-/// the multiples of 2^-bits next to `after`, with more and more bits.
+/// Returns a proof that the distance is below h at some time just after `after`. At the time `after`, the
+/// distance falls below h. The function tries the multiples of 2^-bits next to `after`, with more and more
+/// bits.
 std::optional<std::string> certify_below(Root after, const Meeting& meeting) {
   for (unsigned bits = 4; bits < most_bits; bits *= 2) {
     while (exact::power_of_half(bits) < after.hi() - after.lo()) after.refine();

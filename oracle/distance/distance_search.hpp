@@ -281,10 +281,10 @@ class DistanceSearch {
     if (low != times_.end()) times_.erase(low + 1, times_.end());
   }
 
-  /// An interval that contains the first time at which the distance is below `low_`, if there is one. The
-  /// interval begins where the uncovered part of the first gap begins, and ends at a time at which the
-  /// distance is certainly below `low_`, or at the end of the step. (Times are at most 1, so `slack` is more
-  /// than the rounding error of the sum.)
+  /// Returns an interval that contains the first time at which the distance is below `low_`, if there is such
+  /// a time. The interval begins at the first time that no bound covers. It ends at a time at which the
+  /// distance is certainly below `low_`; if no such time is known, it ends at the end of the step. (Times are
+  /// at most 1, so `slack` is more than the rounding error of the sum.)
   [[nodiscard]] Enclosure time_in(const Gap& gap) const {
     constexpr double slack = 0x1p-95;
     const SampledTime& end = times_.back();

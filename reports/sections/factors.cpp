@@ -129,7 +129,8 @@ std::string wrong_elsewhere(const RightRange& range) {
   if (counts.false_negatives > 0)
     wrong = fmt::format("misses {} of {}", with_separators(counts.false_negatives),
                         with_separators(counts.collisions));
-  // A CCD that allows for rounding errors may report up to a third of the queries without a collision.
+  // Reports are wrong only if they exceed a third of the queries that have no collision. A CCD that allows
+  // for rounding errors may have fewer false positives than that.
   if (3 * counts.false_positives > counts.others)
     wrong += fmt::format("{}reports {} of the rest", wrong.empty() ? "" : ", ",
                          percent(counts.false_positives, counts.others));

@@ -52,11 +52,12 @@ struct TimeError {
   bool promised = false;  ///< the subject promises that the time is a lower bound
   bool late = false;      ///< contact, or a distance below the separation h, before a promised lower bound
   bool stuck = false;     ///< the time is 0, although t* is not 0
-  /// The time is promised and not late, but the rounded step to it (fuzz/trial/committed.hpp) has contact, or
-  /// a distance below h, before the end of the step.
+  /// The time is promised and not late, but the rounded step to this time (fuzz/trial/committed.hpp) has
+  /// contact, or a distance below h, before the end of the step.
   bool committed = false;
   bool unsafe_step = false;  ///< `committed` holds, although the subject promises a step without contact
-  /// The time is promised and not late, and the rounded step to it has contact only at its end.
+  /// The time is promised and not late, and the rounded step to this time has contact, but only at the end of
+  /// the step.
   bool touches_at_end = false;
 
   bool operator==(const TimeError&) const = default;

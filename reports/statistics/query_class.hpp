@@ -10,8 +10,8 @@
 
 namespace nearmiss {
 
-/// Says how near a query is to the queries of a simulation; for a family, how near most of its queries are.
-/// fuzz/families/README.md has the criterion by which queries are classified.
+/// Says how similar a query is to the queries that simulations make. The class of a family is the class of
+/// most of its queries. fuzz/families/README.md says how queries are classified.
 enum class QueryClass : std::uint8_t {
   ordinary,     ///< queries that a simulation makes in every step
   degenerate,   ///< queries that a simulation makes now and then

@@ -1,4 +1,5 @@
-// Compares roots of polynomials, and signs at them, with CGAL's algebraic kernel.
+// Compares the roots of polynomials, and the signs of other polynomials at these roots, with the results of
+// CGAL's algebraic kernel.
 #include "oracle/exact/root.hpp"
 
 #include <CGAL/Algebraic_kernel_d_1.h>

@@ -12,7 +12,8 @@ namespace nearmiss::proofs {
 /// A function that traces one of the templates below, and returns the results with their bounds.
 using Results = std::vector<Bounded> (*)(Trace&, Leaves);
 
-/// The coefficients of a polynomial, its coefficients on [t, s], and its value at t, each with its bound.
+/// Returns three results of a polynomial, each with its bound: the coefficients, the coefficients of the same
+/// polynomial on the interval [t, s], and the value at t.
 template <class Real, std::size_t n>
 std::vector<Bounded> results_of(Trace& trace, const certified::Bernstein<Real, n>& polynomial,
                                 Leaves leaves) {

@@ -116,8 +116,8 @@ class WorkerProcess {
   [[nodiscard]] std::uint64_t measured(std::uint32_t i) const {
     return limited(batch_.nanoseconds()[i], Duration{});
   }
-  /// The time of the last call without the time for copies to and from a device, as the plug-in states it,
-  /// but at most measured(). 0 if the plug-in does not state this time.
+  /// Returns the time that the last call took apart from copies to and from a device. The plug-in states this
+  /// time; a time above measured() is replaced by measured(). Returns 0 if the plug-in does not state a time.
   [[nodiscard]] std::uint64_t measured_kernels() const {
     return std::min(answers_->kernel_nanoseconds, measured());
   }
