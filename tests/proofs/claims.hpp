@@ -61,9 +61,9 @@ struct OracleClaim {
 std::vector<OracleClaim> oracle_claims();
 
 /// Describes the faults of a claim. A claim has no faults if all of the following hold. Gappa proves the
-/// bound `proven` in every precision; in double, it proves the bound with underflow. In double, Gappa proves
-/// no bound far below `proven`, and none below the witness's error. No result overflows. seen <= proven <=
-/// claimed. The witness has exactly the recorded error.
+/// bound `proven` in every precision; in double, it proves the bound with underflow. The bound that Gappa
+/// proves in double is not far below `proven`, and not below the witness's error. No result overflows. seen
+/// <= proven <= claimed. The witness has exactly the recorded error.
 std::vector<std::string> faults(const CcdClaim& claim, const Witness& witness, Prover& prover);
 
 /// The faults of all claims, each checked with its witness. Uses two threads.
