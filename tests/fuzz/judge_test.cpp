@@ -153,7 +153,7 @@ TEST(BadBound, IsCountedShrunkAndJudgedAlike) {
   const Finding& finding = result.findings.front();
   EXPECT_EQ(finding.signature, "vt error 0");
   const Query shrunk = shrunk_query(finding, subjects.front().get());
-  EXPECT_LE(complexity(shrunk).numbers, 2);
+  EXPECT_LE(complexity(shrunk).numbers, 3);
   EXPECT_EQ(Judge(*subjects.front()).failure(shrunk), (Failure{finding.what, finding.signature}));
 }
 

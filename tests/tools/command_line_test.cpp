@@ -162,7 +162,7 @@ TEST_F(CommandLine, SceneComparesAllPairs) {
   EXPECT_EQ(funnel["touching"], 3);
   EXPECT_THAT(expect_code(0, scene + "--leave-out boxes --thickness 1e9 --subject wang").out,
               HasSubstr("contact thickness 1e+09\nsubject"));
-  EXPECT_THAT(expect_code(0, scene + "--thickness 1 --subject wang").out,
+  EXPECT_THAT(expect_code(1, scene + "--thickness 1 --subject wang").out,
               HasSubstr("contact thickness 1: no pair needs a subject\n"));
 }
 
@@ -205,7 +205,7 @@ TEST_F(CommandLine, NamesTheNearestOption) {
 
 TEST_F(CommandLine, ScenesAreBuiltInToo) {
   EXPECT_THAT(expect_code(0, "scene --list").out, HasSubstr("\nknot "));
-  const json scenes = json_of(0, "scene flying@300 --subject wang")["scenes"];
+  const json scenes = json_of(1, "scene flying@300 --subject wang")["scenes"];
   EXPECT_THAT(read("error.txt"), HasSubstr("flying@300: 21 frames, "));
   EXPECT_EQ(scenes.size(), 20);
   EXPECT_TRUE(scenes.contains("scene:flying@300#19"));

@@ -290,7 +290,7 @@ int run(SceneOptions options) {
     }
   }
   int code = record.finish(stop.is_requested(), !stop.is_requested());
-  if (code == exit_fine && is_nothing_asked && !options.plan_only) code = exit_found;
+  if (code == exit_fine && is_nothing_asked && !options.plan_only && !options.verify_plan) code = exit_found;
   fmt::print(text, "{}{}", few, longer);
   if (!options.verify_plan || stop.is_requested()) return code;
   const double asking = held.asking.count();
