@@ -171,12 +171,13 @@ std::pair<QueryClass, std::string> said_of(const OfSubject& subject, const Failu
   return {of, fmt::format("{} {}{}{}", failure.verb, in_families, both ? ", and " : "", elsewhere)};
 }
 
+/// Whether the subject has been asked a query and was not too slow for it.
 bool has_answered(const Counts& counts) {
   const auto unanswered = [&](FailureKind kind) { return failure_info(kind).count(counts); };
   return counts.queries > unanswered(FailureKind::slow) + unanswered(FailureKind::contract);
 }
 
-/// The verb and the object of a sentence about one or more unjudged subjects.
+/// Returns the verb and the object of a sentence about one or more unjudged subjects.
 std::string_view unjudged_words(const Counts& counts) {
   if (has_answered(counts)) return "left most queries unanswered";
   return failure_info(FailureKind::slow).count(counts) > 0 ? "answered no query in time" : "got no query";
@@ -300,8 +301,8 @@ std::string answered_text(const Failures& failures, const OfSubject& subject) {
 SubjectVerdict verdict_on(const std::string& name, const OfSubject& subject, const Failures& failing) {
   SubjectVerdict verdict{.subject = name, .failures = failures_of(name, subject.all), .text = {}, .said = {}};
   if (!is_beyond_contract(name)) say_failures(subject, failing, verdict);
-  verdict.text =
-      has_answered(subject.all) ? answered_text(verdict.failures, subject) : unjudged_text(subject.all);
+  const bool says_nothing = verdict.failures.contains(FailureKind::unjudged) && !has_answered(subject.all);
+  verdict.text = says_nothing ? unjudged_text(subject.all) : answered_text(verdict.failures, subject);
   return verdict;
 }
 
